@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The command line: chooses the verb, turns every error into one message and an exit code.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/io/test_writer.hpp"
+#include "dem4grm/version.hpp"
+#include "terminal.hpp"
+#include "verbs.hpp"
+
+namespace {
+
+using dem::ExitCode;
+
+int number(ExitCode code) { return static_cast<int>(code); }
+
+int fail(ExitCode code, const std::string& message) {
+  dem::print_error(message);
+  return number(code);
+}
+
+std::string version_text() {
+  return fmt::format("dem4grm {}\ncommit   {}\ncompiler {}, {}\n", dem::k_version, dem::k_commit, dem::k_compiler,
+                     dem::k_build_type);
+}
+
+/// What the verb asks for help or what was wrong with the words on the command line.
+int answer_parser(CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == 0) {
+    // --help and --version of the program or of a verb: CLI11 knows the text.
+    app.exit(error, std::cout, std::cerr);
+    return std::cout.flush() ? number(ExitCode::done) : number(ExitCode::io);
+  }
+  std::string verb;
+  for (const CLI::App* chosen : app.get_subcommands()) verb = " " + chosen->get_name();
+  return fail(ExitCode::usage, fmt::format("{}\nsee dem4grm{} --help", error.what(), verb));
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App app{"Gravel-rubber mixtures in a virtual direct shear box", "dem4grm"};
+  app.set_version_flag("--version", version_text(), "version, commit and compiler");
+  app.require_subcommand(1);
+  app.get_formatter()->column_width(26);
+  app.footer(
+      "Example:\n"
+      "  dem4grm new direct_shear --vrc 25 --stress 60kPa -o my.toml\n"
+      "  dem4grm check my.toml\n"
+      "  dem4grm run my.toml -o runs/my");
+  dem::add_new(app);
+  dem::add_check(app);
+  dem::add_run(app);
+  dem::add_info(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return answer_parser(app, error);
+  }
+  if (!std::cout.flush()) return fail(ExitCode::io, "the standard output cannot be written");
+  return number(ExitCode::done);
+}
+
+/// Waiting threads of the OpenMP runtime spin for milliseconds by default; on a machine with other work to do, a thread
+/// that spins holds the core that the awaited one needs, and a run becomes many times slower. The runtime reads the
+/// limit before main, so the program starts itself once more with one (docs/decisions/0008-waiting-threads.md). A user
+/// who sets the wait policy or the limit is left alone.
+void limit_spinning(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
+  if (setenv("GOMP_SPINCOUNT", "10000", 0) != 0) return;
+  execv("/proc/self/exe", argv);  // returns only when it failed, and then the run goes on as it is
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  limit_spinning(argv);
+  try {
+    return run_program(argc, argv);
+  } catch (const dem::StoppedOnRequest& stop) {
+    dem::print_note(stop.what());
+    return number(stop.code());
+  } catch (const dem::Error& error) {
+    return fail(error.code(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::memory, "out of memory; dem4grm check CASE shows what a case needs");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::internal, fmt::format("internal error: {}; please report it", error.what()));
+  } catch (...) {
+    return fail(ExitCode::internal, "internal error of unknown kind; please report it");
+  }
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "run_report.hpp"
+
+#include <fmt/format.h>
+
+namespace dem {
+namespace {
+
+/// A line with its name in the first 26 columns.
+std::string line(const std::string& name, const std::string& value) {
+  return fmt::format("  {:<24} {}\n", name, value);
+}
+
+std::string shear_lines(const JsonObject& s) {
+  const auto n = [&](const char* name) { return number_in(s, name); };
+  std::string text;
+  text += line("peak shear stress",
+               fmt::format("{:.2f} kPa at {:.2f} mm{}", n("peak_shear_stress_kPa"), n("displacement_at_peak_mm"),
+                           is_set_in(s, "hardening") ? " (still rising: hardening)" : ""));
+  text += line("residual shear stress", fmt::format("{:.2f} kPa", n("residual_shear_stress_kPa")));
+  text += line("dilation angle", fmt::format("{:.2f} degrees", n("dilation_angle_deg")));
+  text +=
+      line("void ratio", fmt::format("{:.3f} prepared, {:.3f} before shear, {:.3f} at the end",
+                                     n("void_ratio_prepared"), n("void_ratio_before_shear"), n("void_ratio_at_end")));
+  text += line("normal stress", fmt::format("{:.3f} kPa mean, largest error {:.2f} %", n("normal_stress_mean_kPa"),
+                                            100.0 * n("normal_stress_max_error")));
+  const double inertial = n("inertial_number_max");
+  text += line("inertial number",
+               fmt::format("{:.2e} at most{}", inertial, inertial > 1e-3 ? ": too fast to be quasi-static" : ""));
+  text += line("grains", fmt::format("{:.0f} clumps, {:.0f} rubber grains; lost: {:.0f}", n("clumps"),
+                                     n("rubber_grains"), n("lost_grains")));
+  return text;
+}
+
+std::string compression_lines(const JsonObject& s) {
+  const auto n = [&](const char* name) { return number_in(s, name); };
+  std::string text;
+  text += line("load at the end", fmt::format("{:.3f} N at {:.1f} % strain", n("load_at_end_N"), 100.0 * n("strain")));
+  text += line("initial stiffness", fmt::format("{:.3f} N/mm", n("initial_stiffness_N_per_mm")));
+  text += line("late stiffness", fmt::format("{:.3f} N/mm", n("late_stiffness_N_per_mm")));
+  text += line("second neighbours meet",
+               n("knee_strain") > 0.0 ? fmt::format("at {:.1f} % strain", 100.0 * n("knee_strain")) : "never");
+  text += line("Poisson's ratio", fmt::format("{:.3f} at first", n("poisson_ratio_initial")));
+  return text;
+}
+
+}  // namespace
+
+std::string summary_lines(const JsonObject& summary) {
+  std::string text =
+      text_in(summary, "test") == "grain_compression" ? compression_lines(summary) : shear_lines(summary);
+  text += line("energy not accounted for",
+               fmt::format("{:.3g} % of the boundary work", number_in(summary, "energy_closure_per_cent")));
+  text += line("state hash", text_in(summary, "state_hash"));
+  text += line("wall time", fmt::format("{:.1f} s, {:.0f} steps, {:.0f} thread(s)", number_in(summary, "wall_time_s"),
+                                        number_in(summary, "steps"), number_in(summary, "threads")));
+  return text;
+}
+
+std::string run_report(const JsonObject& summary, const std::filesystem::path& folder, bool was_complete) {
+  std::string text = was_complete
+                         ? fmt::format("{} is complete (dem4grm {}, commit {}); nothing was computed\n",
+                                       folder.string(), text_in(summary, "version"), text_in(summary, "commit"))
+                         : fmt::format("{} is done\n", text_in(summary, "case"));
+  text += summary_lines(summary);
+  text += line("written to", folder.string());
+  text += line("next", fmt::format("dem4grm info {}", folder.string()));
+  return text;
+}
+
+}  // namespace dem

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The last lines of a run: what came out, where it is, what to do next.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "dem4grm/io/json_text.hpp"
+
+namespace dem {
+
+/// The main numbers of a summary as lines of text.
+std::string summary_lines(const JsonObject& summary);
+
+/// The same with the folder, the time it took and the next command.
+std::string run_report(const JsonObject& summary, const std::filesystem::path& folder, bool was_complete);
+
+}  // namespace dem

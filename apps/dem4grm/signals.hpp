@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// SIGINT and SIGTERM ask for an end; the second one ends at once.
+#pragma once
+
+#include <csignal>
+
+namespace dem {
+
+/// Not zero once an end was asked for.
+extern volatile std::sig_atomic_t stop_requested;
+
+void install_stop_signals();
+
+}  // namespace dem

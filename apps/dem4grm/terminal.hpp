@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How the program speaks: results on stdout, everything else on stderr.
+#pragma once
+
+#include <string>
+
+namespace dem {
+
+/// "error: ..." on stderr, coloured on a terminal unless NO_COLOR is set.
+void print_error(const std::string& message);
+void print_warning(const std::string& message);
+void print_note(const std::string& message);
+/// On stdout.
+void print_result(const std::string& text);
+
+/// True when lines on stderr may be written over.
+bool is_error_stream_a_terminal();
+/// Columns of the terminal; 80 when unknown.
+int terminal_width();
+
+}  // namespace dem

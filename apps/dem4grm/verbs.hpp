@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The verbs of the command line. Each adds itself to the parser and runs when it is chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "dem4grm/io/case_file.hpp"
+
+namespace dem {
+
+void add_new(CLI::App& app);
+void add_check(CLI::App& app);
+void add_run(CLI::App& app);
+void add_info(CLI::App& app);
+
+/// Adds --set key=value, which may be given many times.
+void add_set_option(CLI::App& verb, std::vector<std::string>& settings);
+
+/// Splits "key=value" texts. Throws Error with ExitCode::usage.
+std::vector<Override> overrides_from(const std::vector<std::string>& settings);
+
+}  // namespace dem

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Stage: rubber grains, one block of k_lanes grains at a time, from contact forces to new positions in one pass.
+#include <algorithm>
+
+#include "dem4grm/core/blocks.hpp"
+#include "dem4grm/engine/grain_block.hpp"
+#include "dem4grm/engine/hertz_dispatch.hpp"
+#include "dem4grm/laws/local_damping.hpp"
+#include "dem4grm/laws/rigid_rotation.hpp"
+
+namespace dem {
+
+namespace {
+
+/// Adds the contact rows that act on a block, in row order.
+void gather_contacts(const Simulation& s, std::size_t block, BlockForces& out) {
+  const ContactTable& t = s.contacts;
+  const int end = s.references.start[block + 1];
+  for (int k = s.references.start[block]; k < end; ++k) {
+    const auto row = static_cast<std::size_t>(s.references.row[static_cast<std::size_t>(k)]);
+    const int reference = s.references.place[static_cast<std::size_t>(k)];
+    const bool second = (reference & ContactReferences::k_second) != 0;
+    const auto place = static_cast<std::size_t>(reference & ~ContactReferences::k_second);
+    const double sign = second ? -1.0 : 1.0;
+    const double lever = second ? t.lever_j[row] : t.lever_i[row];
+    add_load(out, place, t.force(row) * sign, Vec3{t.couple_x[row], t.couple_y[row], t.couple_z[row]} * lever);
+  }
+}
+
+/// Bit l is set when lane l of the pair is closer than its two radii.
+unsigned touching_lanes(const GrainBlock& g, std::size_t i, std::size_t j, double reach2) {
+  unsigned char touches[k_lanes];
+  unsigned any = 0;
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    const Vec3 d = load3(g.x, g.y, g.z, j + lane) - load3(g.x, g.y, g.z, i + lane);
+    touches[lane] = dot(d, d) < reach2 ? 1 : 0;
+  }
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) any |= static_cast<unsigned>(touches[lane]) << lane;
+  return any;
+}
+
+/// Hertz-Mindlin contact of the 66 second-neighbour pairs. A pair that is open in all lanes costs only its distance
+/// test; its history is read and written only while some lane touches.
+template <HertzOptions options>
+void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g, BlockForces& out,
+                           BlockLosses& losses) {
+  constexpr std::size_t w = k_lanes;
+  const double r = s.scene.rubber_ball_radius, reach2 = 4.0 * r * r, dt = s.dt;
+  const HertzParameters p = s.second_neighbour;
+  for (std::size_t q = 0; q < k_grain_second_neighbours; ++q) {
+    const std::size_t i = k_second_neighbours_of_grain[q].i * w, j = k_second_neighbours_of_grain[q].j * w;
+    unsigned char& had = s.grain_history.second_neighbour_touches[block * k_grain_second_neighbours + q];
+    const unsigned touching = touching_lanes(g, i, j, reach2);
+    if (touching == 0 && had == 0) continue;
+    had = static_cast<unsigned char>(touching);
+    double* __restrict h =
+        s.grain_history.second_neighbour_shear.data() + (block * k_grain_second_neighbours + q) * 3 * w;
+#pragma omp simd
+    for (std::size_t lane = 0; lane < w; ++lane) {
+      const std::size_t a = i + lane, b = j + lane;
+      const HertzGeometry geometry = hertz_geometry({load3(g.x, g.y, g.z, b) - load3(g.x, g.y, g.z, a),
+                                                     load3(g.vx, g.vy, g.vz, b) - load3(g.vx, g.vy, g.vz, a),
+                                                     load3(g.wx, g.wy, g.wz, a),
+                                                     load3(g.wx, g.wy, g.wz, b),
+                                                     r,
+                                                     r,
+                                                     {h[lane], h[w + lane], h[2 * w + lane]}},
+                                                    dt);
+      const HertzForce f = hertz_mindlin<options>(p, geometry.motion, dt);
+      h[lane] = f.shear.x;
+      h[w + lane] = f.shear.y;
+      h[2 * w + lane] = f.shear.z;
+      const Vec3 force = f.shear_total - geometry.normal * f.normal_total;
+      const Vec3 couple = cross(geometry.normal, f.shear_total);
+      add_load(out, a, force, couple * geometry.lever_i);
+      add_load(out, b, -force, couple * geometry.lever_j);
+      losses.slip[lane] += f.slip_work;
+      losses.dashpot[lane] += f.dashpot_work;
+    }
+  }
+}
+
+/// Local damping, leapfrog and rotation of all balls of a block; returns the largest speed squared.
+double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, const double* inverse_mass,
+                 double* damping_work) {
+  const double dt = s.dt, alpha = s.scene.integration.local_damping;
+  // Solid ball: I = 2/5 m r^2.
+  const double inertia_factor = 2.5 / (s.scene.rubber_ball_radius * s.scene.rubber_ball_radius);
+  alignas(64) double top[k_lanes] = {};
+  alignas(64) double lost[k_lanes] = {};
+  for (std::size_t slot = 0; slot < k_grain_balls; ++slot) {
+    const std::size_t base = slot * k_lanes;
+#pragma omp simd
+    for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+      const std::size_t k = base + lane;
+      const Vec3 force{load.value[0][k], load.value[1][k], load.value[2][k]};
+      const Vec3 torque{load.value[3][k], load.value[4][k], load.value[5][k]};
+      const Vec3 v = load3(g.vx, g.vy, g.vz, k), w = load3(g.wx, g.wy, g.wz, k);
+      const Vec3 damped_force = locally_damped(force, v, alpha), damped_torque = locally_damped(torque, w, alpha);
+      const double per_mass = inverse_mass[lane] * dt;
+      const Vec3 new_v = v + damped_force * per_mass;
+      const Vec3 new_w = w + damped_torque * (per_mass * inertia_factor);
+      g.vx[k] = new_v.x;
+      g.vy[k] = new_v.y;
+      g.vz[k] = new_v.z;
+      g.wx[k] = new_w.x;
+      g.wy[k] = new_w.y;
+      g.wz[k] = new_w.z;
+      g.x[k] += new_v.x * dt;
+      g.y[k] += new_v.y * dt;
+      g.z[k] += new_v.z * dt;
+      const Quaternion q = turned({g.qw[k], g.qx[k], g.qy[k], g.qz[k]}, new_w, dt);
+      g.qw[k] = q.w;
+      g.qx[k] = q.x;
+      g.qy[k] = q.y;
+      g.qz[k] = q.z;
+      const double speed2 = dot(new_v, new_v);
+      top[lane] = speed2 > top[lane] ? speed2 : top[lane];
+      lost[lane] += dot(force - damped_force, v + new_v) + dot(torque - damped_torque, w + new_w);
+    }
+  }
+  double fastest = 0.0;
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    damping_work[lane] += 0.5 * dt * lost[lane];
+    fastest = std::max(fastest, inverse_mass[lane] > 0.0 ? top[lane] : 0.0);
+  }
+  return fastest;
+}
+
+template <HertzOptions options>
+void advance_block(Simulation& s, std::size_t block) {
+  BlockForces load;
+  BlockLosses losses;
+  const GrainBlock g = grain_block(s.balls, block);
+  gather_contacts(s, block, load);
+  add_second_neighbours<options>(s, block, g, load, losses);
+  if (s.scene.bond.form == BondForm::incremental) {
+    add_incremental_bonds(s, block, load, losses);
+  } else {
+    add_history_free_bonds(s.bond, g, s.dt, load, losses);
+  }
+  const std::size_t first = block * k_lanes;
+  s.block_top_speed2[block] =
+      integrate(s, g, load, s.lane_inverse_mass.data() + first, s.ledger.grain_damping.data() + first);
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    s.ledger.grain_slip[first + lane] += losses.slip[lane];
+    s.ledger.grain_dashpot[first + lane] += losses.dashpot[lane];
+  }
+}
+
+}  // namespace
+
+void advance_rubber_grains(Simulation& s) {
+  with_hertz_options(s.scene.contact, [&](auto options) {
+    for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
+      advance_block<decltype(options)::value>(s, block);
+    });
+  });
+}
+
+}  // namespace dem

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers that describe a state: how far from rest, how deep the overlaps, whether anything is lost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dem4grm/engine/simulation.hpp"
+
+namespace dem {
+
+/// Contact force on each body, N: rubber grains first, then clumps. Forces inside a grain cancel.
+std::vector<Vec3> net_contact_forces(const Simulation& s);
+
+struct Balance {
+  double mean_net_force = 0.0;      ///< N, mean over the bodies that touch something
+  double mean_contact_force = 0.0;  ///< N, mean over the active contacts
+  int active_contacts = 0;
+  /// mean_net_force / mean_contact_force, 0 when nothing touches
+  [[nodiscard]] double ratio() const { return mean_contact_force > 0.0 ? mean_net_force / mean_contact_force : 0.0; }
+};
+Balance balance(const Simulation& s);
+
+/// Mean of nx^4 + ny^4 + nz^4 over the axes of the rubber grains (bonded or clumps of rubber): 0.6 at random, 1 when
+/// every grain stands square to the box. 0 without rubber.
+double rubber_alignment(const Simulation& s);
+
+struct OverlapReport {
+  double largest = 0.0;  ///< overlap over the smaller radius
+  int ball_i = -1, ball_j = -1;
+  int wall = -1;   ///< instead of ball_j
+  int caught = 0;  ///< pairs of different bodies with a ball centre inside the other ball
+};
+OverlapReport worst_overlap(const Simulation& s);
+
+/// Where grains may be: the box that holds all of it, m.
+struct Bounds {
+  Vec3 low, high;
+};
+
+/// Empty when all is well; else one sentence that names the worst offender: a value that is no number, a ball outside
+/// the bounds, an overlap beyond the limit (over the smaller radius).
+std::string find_trouble(const Simulation& s, const Bounds& bounds, double overlap_limit);
+
+/// Number of balls outside the bounds, belonging to how many bodies.
+int count_lost_bodies(const Simulation& s, const Bounds& bounds);
+
+/// Centre of a rubber grain (mean of its balls) and of a clump.
+Vec3 body_position(const Simulation& s, int body);
+
+}  // namespace dem

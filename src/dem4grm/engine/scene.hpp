@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a simulation is built from: materials, shapes, where every grain lies, and the walls.
+#pragma once
+
+#include <vector>
+
+#include "dem4grm/core/quaternion.hpp"
+#include "dem4grm/engine/settings.hpp"
+#include "dem4grm/grains/clump_template.hpp"
+#include "dem4grm/grains/material.hpp"
+#include "dem4grm/walls/wall.hpp"
+
+namespace dem {
+
+enum Material : unsigned char { k_gravel = 0, k_rubber = 1 };
+inline constexpr int k_materials = 2;
+
+struct Pose {
+  Vec3 position;  ///< m
+  Quaternion orientation;
+};
+
+/// A clump to be placed: a template scaled to a sieve size.
+struct PlacedClump {
+  int shape = 0;      ///< index into Scene::shapes
+  double size = 0.0;  ///< m
+  Pose pose;
+  Material material = k_gravel;
+};
+
+struct Scene {
+  MaterialSettings gravel, rubber, walls;
+  BondSettings bond;
+  ContactSettings contact;
+  IntegrationSettings integration;
+
+  double rubber_ball_radius = 0.0;  ///< m
+  std::vector<Pose> grains;         ///< bonded rubber grains at rest, pose of the grain's cube axes
+  std::vector<ClumpTemplate> shapes;
+  std::vector<PlacedClump> clumps;
+  std::vector<Wall> wall_list;
+};
+
+}  // namespace dem

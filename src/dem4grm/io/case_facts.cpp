@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/io/case_facts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "dem4grm/engine/time_step.hpp"
+#include "dem4grm/grains/rubber_size.hpp"
+#include "dem4grm/io/output_folder.hpp"
+#include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/specimen/draw_grains.hpp"
+#include "dem4grm/specimen/void_ratio_defaults.hpp"
+
+namespace dem {
+namespace {
+
+// Peak of the resident memory, measured on runs of 1,249 to 205,520 balls: 380 to 900 bytes a ball.
+constexpr double k_program_bytes = 20e6;
+constexpr double k_bytes_per_ball = 900.0;
+
+/// The grains that can limit the time step: the smallest clump of each shape (the limit grows with the size) and one
+/// rubber grain, lying apart.
+Scene limiting_grains(Scene scene, const GrainList& grains) {
+  std::vector<std::optional<double>> smallest(grains.shapes.size());
+  for (const GravelGrain& grain : grains.gravel) {
+    auto& size = smallest[static_cast<std::size_t>(grain.shape)];
+    size = std::min(size.value_or(grain.sieve_size), grain.sieve_size);
+  }
+  scene.shapes = grains.shapes;
+  scene.rubber_ball_radius = grains.rubber_ball_radius;
+  for (std::size_t shape = 0; shape < smallest.size(); ++shape) {
+    if (!smallest[shape]) continue;
+    const Vec3 place{10.0 * static_cast<double>(shape + 1), 0.0, 0.0};
+    scene.clumps.push_back({static_cast<int>(shape), *smallest[shape], {place, {}}, k_gravel});
+  }
+  if (grains.rubber_count > 0) scene.grains.push_back({});
+  return scene;
+}
+
+void describe_grains(const DirectShearCase& test, const GrainList& grains, CaseFacts& facts) {
+  int pebbles = 0;
+  double size_times_volume = 0.0;
+  for (const GravelGrain& grain : grains.gravel) {
+    const ClumpTemplate& shape = grains.shapes[static_cast<std::size_t>(grain.shape)];
+    const double d = grain.sieve_size;
+    pebbles += static_cast<int>(shape.pebbles.size());
+    size_times_volume += shape.volume * d * d * d * d;
+  }
+  const double total = grains.solid_volume();
+  if (grains.rubber_count > 0) {
+    size_times_volume += grains.rubber_volume *
+                         rubber_grain_size(grains.rubber_ball_radius, test.rubber.density, test.rubber_solid_density);
+  }
+  facts.clumps = static_cast<int>(grains.gravel.size());
+  facts.rubber_grains = grains.rubber_count;
+  facts.balls = pebbles + grains.rubber_count * k_grain_balls;
+  facts.bonds = grains.rubber_count * k_grain_bonds;
+  facts.rubber_content = grains.rubber_content();
+  facts.mean_size = size_times_volume / total;
+  facts.mean_density =
+      (grains.gravel_volume * test.gravel.density + grains.rubber_volume * test.rubber_solid_density) / total;
+}
+
+CaseFacts facts_of(const DirectShearCase& test) {
+  const GrainList grains =
+      draw_grains(test.specimen, test.box, test.rubber.density, test.rubber_solid_density, test.seed);
+  CaseFacts facts;
+  facts.test = "direct_shear";
+  describe_grains(test, grains, facts);
+  const TimeStepLimit limit =
+      choose_time_step(Simulation(limiting_grains(materials_of(test), grains)), test.shear.normal_stress);
+  facts.time_step = limit.seconds;
+  facts.time_step_limited_by = limit.limited_by;
+  facts.steps = std::llround(test.shear.displacement / test.shear.velocity / limit.seconds);
+  facts.rows = static_cast<int>(std::ceil(test.shear.displacement / test.recording.interval - 1e-9));
+  facts.inertial_number = test.shear.velocity / test.box.height * facts.mean_size *
+                          std::sqrt(facts.mean_density / test.shear.normal_stress);
+  const double vrc = test.specimen.rubber_content;
+  facts.expected_void_ratio = test.specimen.expected_void_ratio.value_or(expected_void_ratio(vrc));
+  facts.generation_void_ratio = test.specimen.generation_void_ratio.value_or(laboratory_void_ratio(vrc));
+  return facts;
+}
+
+CaseFacts facts_of(const GrainCompressionCase& test) {
+  Scene scene;
+  scene.gravel = DirectShearCase{}.gravel;  // not used, but a scene has it
+  scene.rubber = test.rubber;
+  scene.walls = test.walls;
+  scene.bond = test.bond;
+  scene.contact = test.contact;
+  scene.integration = test.integration;
+  scene.rubber_ball_radius = test.ball_radius;
+  scene.grains.push_back({});
+  const TimeStepLimit limit = choose_time_step(Simulation(scene), 0.0);
+  CaseFacts facts;
+  facts.test = "grain_compression";
+  facts.balls = k_grain_balls;
+  facts.rubber_grains = 1;
+  facts.bonds = k_grain_bonds;
+  facts.time_step = limit.seconds;
+  facts.time_step_limited_by = limit.limited_by;
+  const double height = 2.0 * (k_grain_lattice + 1.0) * test.ball_radius;
+  facts.steps = std::llround(test.strain * height / (2.0 * test.plate_velocity) / limit.seconds);
+  facts.rows = test.records;
+  return facts;
+}
+
+}  // namespace
+
+CaseFacts derive_facts(const TestCase& test) {
+  CaseFacts facts = std::visit([](const auto& t) { return facts_of(t); }, test);
+  facts.name = case_name(test);
+  facts.memory = k_program_bytes + k_bytes_per_ball * facts.balls;
+  return facts;
+}
+
+JsonObject facts_as_json(const CaseFacts& f) {
+  JsonObject out{{"test", f.test},
+                 {"case", f.name},
+                 {"balls", f.balls},
+                 {"clumps", f.clumps},
+                 {"rubber_grains", f.rubber_grains},
+                 {"bonds", f.bonds},
+                 {"time_step_s", f.time_step},
+                 {"time_step_limited_by", f.time_step_limited_by},
+                 {"steps", f.steps},
+                 {"rows", f.rows},
+                 {"memory_MB", f.memory / 1e6}};
+  if (f.test != "direct_shear") return out;
+  for (JsonField& field : JsonObject{{"rubber_content", f.rubber_content},
+                                     {"expected_void_ratio", f.expected_void_ratio},
+                                     {"generation_void_ratio", f.generation_void_ratio},
+                                     {"mean_size_mm", f.mean_size * 1e3},
+                                     {"mean_density_kg_per_m3", f.mean_density},
+                                     {"inertial_number", f.inertial_number},
+                                     {"is_quasi_static", f.inertial_number < k_quasi_static}}) {
+    out.push_back(std::move(field));
+  }
+  return out;
+}
+
+}  // namespace dem

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What follows from a case before anything is computed: numbers of grains, time step, inertial number, memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "dem4grm/io/case_file.hpp"
+#include "dem4grm/io/json_text.hpp"
+
+namespace dem {
+
+/// Derived values, SI units. Of a grain compression only the first group is filled.
+struct CaseFacts {
+  std::string test, name;
+  int balls = 0, clumps = 0, rubber_grains = 0, bonds = 0;
+  double time_step = 0.0;  ///< s; the contacts of the real specimen may make it shorter, never longer
+  std::string time_step_limited_by;
+  std::int64_t steps = 0;  ///< of the shear stage, or of the whole compression
+  int rows = 0;            ///< of the record
+  double memory = 0.0;     ///< bytes, estimated
+
+  double rubber_content = 0.0;   ///< that whole grains give
+  double inertial_number = 0.0;  ///< of the shear stage
+  double mean_size = 0.0;        ///< m, volume-weighted
+  double mean_density = 0.0;     ///< kg/m3, volume-weighted, of the solids
+  double expected_void_ratio = 0.0;
+  double generation_void_ratio = 0.0;
+};
+
+/// Limits of the inertial number of shear: below the first a test counts as quasi-static beyond doubt, above the second
+/// as too fast.
+inline constexpr double k_quasi_static = 1e-4;
+inline constexpr double k_too_fast = 1e-3;
+
+/// Cheap: draws the grains and finds their stability limits, fills no box. Throws InputError for grains that cannot be
+/// drawn.
+CaseFacts derive_facts(const TestCase& test);
+
+/// The facts with units in their names.
+JsonObject facts_as_json(const CaseFacts& facts);
+
+}  // namespace dem

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Owners for the handles of the HDF5 C library, and the few calls that the program needs.
+//
+// Files have the earliest format (any reader of the last twenty years opens them), no times inside, data compressed
+// with gzip and shuffle only: MATLAB and plain h5py read that without a plug-in. Equal content gives equal bytes.
+#pragma once
+
+#include <hdf5.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace dem::hdf5 {
+
+/// Owns one handle. Every function below throws IoError with file or object name when the library fails.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle() = default;
+  /// Throws IoError when id is negative; `what` names the attempt.
+  Handle(hid_t id, Close close_function, const std::string& what);
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Handle();
+
+  [[nodiscard]] hid_t id() const { return id_; }
+  /// Closes now and throws IoError when that fails, as it does when the disk is full.
+  void close(const std::string& what);
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
+};
+
+enum class Access { read, write };
+
+/// A new, empty file; an old one of that name is replaced.
+Handle create_file(const std::filesystem::path& path);
+Handle open_file(const std::filesystem::path& path, Access access);
+
+Handle create_group(const Handle& parent, const std::string& name);
+Handle open_group(const Handle& parent, const std::string& name);
+/// Names of what a group holds, sorted.
+std::vector<std::string> names_in(const Handle& group);
+
+void write_attribute(const Handle& object, const std::string& name, double value);
+void write_attribute(const Handle& object, const std::string& name, std::int64_t value);
+void write_attribute(const Handle& object, const std::string& name, const std::string& value);
+double read_number_attribute(const Handle& object, const std::string& name);
+std::string read_text_attribute(const Handle& object, const std::string& name);
+
+/// What every dataset says about itself.
+struct Label {
+  std::string name;
+  std::string unit;  ///< "1" for plain numbers
+  std::string description;
+};
+
+/// [n] when columns is 1, else [n / columns][columns].
+void write_dataset(const Handle& parent, const Label& label, std::span<const double> values, std::size_t columns = 1);
+void write_dataset(const Handle& parent, const Label& label, std::span<const std::int32_t> values,
+                   std::size_t columns = 1);
+void write_dataset(const Handle& parent, const Label& label, std::span<const std::uint8_t> values,
+                   std::size_t columns = 1);
+/// Text of any length, one for each row.
+void write_dataset(const Handle& parent, const Label& label, std::span<const std::string> values);
+
+/// Length of each dimension.
+std::vector<std::size_t> dataset_shape(const Handle& parent, const std::string& name);
+std::vector<double> read_dataset(const Handle& parent, const std::string& name);
+
+}  // namespace dem::hdf5

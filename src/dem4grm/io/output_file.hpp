@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Files that are written: every failure becomes an IoError with path and system message.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace dem {
+
+/// "PATH: cannot be written: No space left on device", from errno.
+[[noreturn]] void throw_io_error(const std::filesystem::path& path, std::string_view what);
+
+/// Replaces a file as a whole: written under another name, brought to the disk, then renamed. A reader sees the old
+/// text or the new one. Throws IoError and leaves the old file.
+void replace_file(const std::filesystem::path& path, std::string_view text);
+
+/// Makes a new file; throws IoError, or Error with ExitCode::usage when it is there already.
+void create_file(const std::filesystem::path& path, std::string_view text);
+
+/// A file that grows; what was appended is at the operating system when append returns.
+class AppendedFile {
+ public:
+  /// Opens an empty file, an old one is emptied. Throws IoError.
+  explicit AppendedFile(std::filesystem::path path);
+  AppendedFile(const AppendedFile&) = delete;
+  AppendedFile& operator=(const AppendedFile&) = delete;
+  ~AppendedFile();
+
+  /// Throws IoError.
+  void append(std::string_view text);
+  /// Brings everything to the disk. Throws IoError.
+  void sync();
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+/// The value in the fewest digits that read back as the same bits, independent of the locale.
+void append_number(std::string& text, double value);
+
+}  // namespace dem

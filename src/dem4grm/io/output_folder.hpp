@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of one run: what it holds before, and its file names.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "dem4grm/io/case_file.hpp"
+#include "dem4grm/io/folder_lock.hpp"
+
+namespace dem {
+
+/// Names of the files in an output folder.
+namespace file_name {
+inline constexpr const char* k_case = "case.toml";
+inline constexpr const char* k_resolved = "resolved.toml";
+inline constexpr const char* k_log = "run.log";
+inline constexpr const char* k_status = "status.json";
+inline constexpr const char* k_shear = "shear.csv";
+inline constexpr const char* k_grain = "grain.csv";
+inline constexpr const char* k_summary = "summary.json";
+inline constexpr const char* k_results = "results.h5";
+inline constexpr const char* k_specimen = "specimen.h5";
+}  // namespace file_name
+
+enum class FolderContent {
+  nothing,     ///< no folder, or none of our files in it
+  unfinished,  ///< the same case, begun and not finished
+  complete,    ///< the same case, finished
+  other_case,
+};
+
+/// Looks into a folder without touching it. Throws IoError when it cannot be looked into.
+FolderContent look_into(const std::filesystem::path& folder, const LoadedCase& loaded);
+
+/// "runs/<case name>", with every character that is unusual in a file name replaced.
+std::filesystem::path default_folder(const std::string& case_name);
+
+/// The name that a case gave itself.
+const std::string& case_name(const TestCase& test);
+
+/// A folder that belongs to this process until the object goes.
+class OutputFolder {
+ public:
+  /// Makes the folder, takes its lock, removes what an unfinished run left, writes case.toml and resolved.toml.
+  /// Throws FolderInUseError, IoError, and Error with ExitCode::usage when it holds another case.
+  OutputFolder(std::filesystem::path path, const LoadedCase& loaded);
+
+  [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// What the folder held when the lock was taken; `complete` means that nothing was touched.
+  [[nodiscard]] FolderContent found() const { return found_; }
+  [[nodiscard]] const std::string& lock_note() const { return lock_->note(); }
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<FolderLock> lock_;
+  FolderContent found_ = FolderContent::nothing;
+};
+
+}  // namespace dem

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/io/summary.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "dem4grm/version.hpp"
+
+namespace dem {
+namespace {
+
+JsonValue state_hashes(const RunFacts& facts) {
+  JsonList list;
+  for (const FrameInfo& frame : facts.frames) {
+    list.emplace_back(JsonObject{
+        {"frame", frame.number}, {"displacement_mm", frame.displacement * 1e3}, {"state_hash", frame.state_hash}});
+  }
+  return list;
+}
+
+void append(JsonObject& object, JsonObject more) {
+  for (JsonField& field : more) object.push_back(std::move(field));
+}
+
+JsonObject origin_of(const std::string& test, const std::string& name, const RunFacts& facts) {
+  return {{"test", test},
+          {"case", name},
+          {"version", k_version},
+          {"commit", k_commit},
+          {"compiler", k_compiler},
+          {"build_type", k_build_type},
+          {"threads", facts.threads}};
+}
+
+/// The void ratio that no stage measured is unknown, not zero.
+JsonObject specimen_of(const DirectShearCase& test, const DirectShearResult& r) {
+  const SpecimenReport& s = r.specimen;
+  return {{"balls", r.balls},
+          {"clumps", r.clumps},
+          {"rubber_grains", r.rubber_grains},
+          {"bonds", r.bonds},
+          {"broken_bonds", r.broken_bonds},
+          {"lost_grains", r.lost_grains},
+          {"rubber_content", s.rubber_content},
+          {"void_ratio_generated", s.void_ratio_generated},
+          {"void_ratio_prepared", s.void_ratio_prepared},
+          {"void_ratio_before_shear", s.void_ratio_before_shear},
+          {"relative_density", JsonValue()},
+          {"preparation_friction", test.specimen.preparation_friction},
+          {"height_before_shear_mm", s.height * 1e3},
+          {"alignment_generated", s.alignment_generated},
+          {"alignment_before_shear", s.alignment_before_shear},
+          {"fill_overlap", s.fill_overlap},
+          {"caught_balls", s.caught},
+          {"mean_size_mm", s.mean_size * 1e3},
+          {"mean_density_kg_per_m3", s.mean_density},
+          {"steps_fill", s.fill_steps},
+          {"steps_compression", s.compression_steps},
+          {"steps_final_friction", s.friction_steps}};
+}
+
+JsonObject curve_of(const DirectShearCase& test, const DirectShearResult& r) {
+  const ShearCurve& c = r.curve;
+  return {{"normal_stress_target_kPa", test.shear.normal_stress / 1e3},
+          {"normal_stress_mean_kPa", r.normal_stress_mean / 1e3},
+          {"normal_stress_max_error", r.normal_stress_max_error},
+          {"normal_stress_worst_step_error", r.normal_stress_worst_step},
+          {"half_force_imbalance_mean", r.half_force_imbalance_mean},
+          {"inertial_number_max", r.inertial_number_max},
+          {"unbalanced_ratio_mean", r.unbalanced_ratio_mean},
+          {"shear_displacement_mm", r.displacement * 1e3},
+          {"shear_velocity_mm_per_s", test.shear.velocity * 1e3},
+          {"peak_shear_stress_kPa", c.peak_stress / 1e3},
+          {"displacement_at_peak_mm", c.displacement_at_peak * 1e3},
+          {"residual_shear_stress_kPa", c.residual_stress / 1e3},
+          {"secant_stiffness_kPa_per_mm", c.secant_stiffness / 1e6},
+          {"dilation_angle_deg", c.dilation_angle * 180.0 / std::numbers::pi},
+          {"vertical_displacement_at_end_mm", c.vertical_displacement_at_end * 1e3},
+          {"void_ratio_at_end", r.rows.empty() ? JsonValue() : JsonValue(r.rows.back().void_ratio)},
+          {"rows", static_cast<std::int64_t>(r.rows.size())}};
+}
+
+JsonObject ending_of(const RunFacts& facts, const std::string& state_hash) {
+  return {{"energy_closure_per_cent", facts.energy_closure},
+          {"state_hash", state_hash},
+          {"state_hashes", state_hashes(facts)},
+          {"warnings", facts.warnings}};
+}
+
+}  // namespace
+
+double energy_closure_per_cent(const EnergyReport& start, const EnergyReport& end) {
+  const double stored = (end.kinetic - start.kinetic) + (end.contact_strain - start.contact_strain) +
+                        (end.bond_strain - start.bond_strain);
+  const double work = end.boundary_work - start.boundary_work;
+  const double lost =
+      (end.slip - start.slip) + (end.dashpot - start.dashpot) + (end.local_damping - start.local_damping);
+  return work != 0.0 ? 100.0 * (work - stored - lost) / std::fabs(work) : 0.0;
+}
+
+JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts) {
+  JsonObject summary = origin_of("direct_shear", test.name, facts);
+  append(summary, {{"seed", static_cast<std::int64_t>(test.seed)},
+                   {"steps", result.steps},
+                   {"time_step_s", result.time_step},
+                   {"time_step_limited_by", result.specimen.time_step.limited_by},
+                   {"wall_time_s", facts.wall_time}});
+  append(summary, specimen_of(test, result));
+  append(summary, curve_of(test, result));
+  append(summary, {{"hardening", result.curve.is_hardening}});
+  append(summary, ending_of(facts, result.state_hash));
+  return summary;
+}
+
+JsonObject grain_compression_summary(const GrainCompressionCase& test, const GrainCompressionResult& result,
+                                     const RunFacts& facts) {
+  JsonObject summary = origin_of("grain_compression", test.name, facts);
+  const bool has_rows = !result.rows.empty();
+  append(summary, {{"steps", result.steps},
+                   {"time_step_s", result.time_step},
+                   {"time_step_limited_by", result.time_step_limit.limited_by},
+                   {"wall_time_s", facts.wall_time},
+                   {"balls", k_grain_balls},
+                   {"clumps", 0},
+                   {"rubber_grains", 1},
+                   {"bonds", k_grain_bonds},
+                   {"grain_height_mm", result.grain_height * 1e3},
+                   {"plate_velocity_mm_per_s", test.plate_velocity * 1e3},
+                   {"strain", has_rows ? result.rows.back().strain : 0.0},
+                   {"load_at_end_N", has_rows ? result.rows.back().load : 0.0},
+                   {"initial_stiffness_N_per_mm", result.initial_stiffness / 1e3},
+                   {"late_stiffness_N_per_mm", result.late_stiffness / 1e3},
+                   {"knee_strain", result.knee_strain},
+                   {"poisson_ratio_initial", result.poisson_ratio_initial},
+                   {"rows", static_cast<std::int64_t>(result.rows.size())}});
+  append(summary, ending_of(facts, result.state_hash));
+  return summary;
+}
+
+}  // namespace dem

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/io/test_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "dem4grm/io/output_file.hpp"
+#include "dem4grm/version.hpp"
+
+namespace dem {
+namespace {
+
+ResultsOrigin origin_of(const LoadedCase& loaded) {
+  const bool is_shear = std::holds_alternative<DirectShearCase>(loaded.test);
+  return {is_shear ? "direct_shear" : "grain_compression", case_name(loaded.test), loaded.source_text,
+          loaded.resolved_toml};
+}
+
+}  // namespace
+
+RemainingTime remaining_time_of(const TestCase& test) {
+  if (const auto* shear = std::get_if<DirectShearCase>(&test)) {
+    return {"shear", shear->shear.displacement / shear->shear.velocity};
+  }
+  return {"compression", 0.0};
+}
+
+TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int threads, const RunLinks& links)
+    : folder_(folder),
+      loaded_(loaded),
+      threads_(threads),
+      links_(links),
+      log_(folder.file(file_name::k_log)),
+      status_(folder.file(file_name::k_status), case_name(loaded.test), threads),
+      remaining_(remaining_time_of(loaded.test)),
+      results_(folder.file(file_name::k_results), origin_of(loaded)),
+      is_direct_shear_(std::holds_alternative<DirectShearCase>(loaded.test)) {
+  log_.info(fmt::format("dem4grm {} (commit {}, {}), host {}, {} thread{}", k_version, k_commit, k_compiler,
+                        host_name(), threads, threads == 1 ? "" : "s"));
+  log_.info(fmt::format("case {}", case_name(loaded.test)));
+  if (is_direct_shear_) {
+    table_.emplace(folder.file(file_name::k_shear), shear_columns());
+  } else {
+    table_.emplace(folder.file(file_name::k_grain), compression_columns());
+  }
+  for (const std::string& text : loaded.warnings) {
+    log_.warning(text);
+    warnings_.push_back(text);
+  }
+  status_.set_state(is_direct_shear_ ? RunState::preparing : RunState::running);
+}
+
+double TestWriter::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void TestWriter::progress(const Progress& now) {
+  remaining_.update(now, seconds());
+  if (now.stage != stage_) {
+    stage_ = now.stage;
+    log_.info(fmt::format("stage {}{}", stage_,
+                          now.time_step > 0.0 ? fmt::format(", time step {:.3e} s", now.time_step) : ""));
+    if (stage_ == "shear" && !has_shear_begun_) {
+      has_shear_begun_ = true;
+      status_.set_state(RunState::running);
+    }
+  }
+  status_.set_progress(now, remaining_);
+  if (links_.listener != nullptr) links_.listener->progress(now);
+  if (links_.stop_flag != nullptr && *links_.stop_flag != 0) {
+    status_.set_state(RunState::stopping, "on request");
+    throw StoppedOnRequest("stopped on request; there is no checkpoint yet, so the same command will start anew");
+  }
+}
+
+void TestWriter::note(const std::string& text) {
+  log_.info(text);
+  if (links_.listener != nullptr) links_.listener->note(text);
+}
+
+void TestWriter::warning(const std::string& text) {
+  log_.warning(text);
+  warnings_.push_back(text);
+  if (links_.listener != nullptr) links_.listener->warning(text);
+}
+
+void TestWriter::shear_row(const ShearRow& row) {
+  peak_stress_ = std::max(peak_stress_, row.shear_stress);
+  const double imbalance = peak_stress_ > 0.0 ? std::fabs(row.half_force_difference) / peak_stress_ : 0.0;
+  last_energy_ = row.energy;
+  table_->append(shear_values(row, imbalance));
+  if (links_.listener != nullptr) links_.listener->shear_row(row);
+}
+
+void TestWriter::compression_row(const CompressionRow& row) {
+  last_energy_ = row.energy;
+  table_->append(compression_values(row));
+  if (links_.listener != nullptr) links_.listener->compression_row(row);
+}
+
+void TestWriter::frame(const Simulation& state, const FrameInfo& info) {
+  if (frames_.empty()) {
+    // Rows count the works from here on, but the stored energies from nothing.
+    const EnergyReport now = state.energy();
+    start_energy_.kinetic = now.kinetic;
+    start_energy_.contact_strain = now.contact_strain;
+    start_energy_.bond_strain = now.bond_strain;
+    if (is_direct_shear_) {
+      ResultsFile(folder_.file(file_name::k_specimen), origin_of(loaded_)).add_frame(state, info);
+    }
+  }
+  results_.add_frame(state, info);
+  frames_.push_back(info);
+  log_.info(fmt::format("state {} at {:.3f} mm, hash {}", info.number, info.displacement * 1e3, info.state_hash));
+  if (links_.listener != nullptr) links_.listener->frame(state, info);
+}
+
+RunFacts TestWriter::facts() const {
+  return {threads_, seconds(), energy_closure_per_cent(start_energy_, last_energy_), frames_, warnings_};
+}
+
+void TestWriter::write_tables() {
+  table_->sync();
+  results_.add_table(is_direct_shear_ ? "shear" : "compression", *table_);
+}
+
+void TestWriter::write_summary(const JsonObject& summary) {
+  replace_file(folder_.file(file_name::k_summary), json_text(summary));
+  log_.info(fmt::format("finished after {:.1f} s, {} rows, state hash {}", number_in(summary, "wall_time_s"),
+                        table_->rows(), text_in(summary, "state_hash")));
+  status_.set_state(RunState::finished);
+}
+
+JsonObject TestWriter::finish(const DirectShearResult& result) {
+  write_tables();
+  JsonObject summary = direct_shear_summary(std::get<DirectShearCase>(loaded_.test), result, facts());
+  write_summary(summary);
+  return summary;
+}
+
+JsonObject TestWriter::finish(const GrainCompressionResult& result) {
+  write_tables();
+  JsonObject summary = grain_compression_summary(std::get<GrainCompressionCase>(loaded_.test), result, facts());
+  write_summary(summary);
+  return summary;
+}
+
+void TestWriter::give_up(RunState state, const std::string& cause) noexcept {
+  // Each part on its own: when one file cannot be written, another still may.
+  const auto attempt = [](const auto& part) noexcept {
+    try {
+      part();
+    } catch (...) {
+    }
+  };
+  attempt([&] { state == RunState::failed ? log_.error(cause) : log_.info(cause); });
+  attempt([&] { write_tables(); });
+  attempt([&] { status_.set_state(state, cause); });
+}
+
+}  // namespace dem

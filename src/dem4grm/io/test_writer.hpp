@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The observer that turns a running test into the files of its folder.
+#pragma once
+
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <string>
+
+#include "dem4grm/io/output_folder.hpp"
+#include "dem4grm/io/remaining_time.hpp"
+#include "dem4grm/io/results_file.hpp"
+#include "dem4grm/io/run_log.hpp"
+#include "dem4grm/io/status_file.hpp"
+#include "dem4grm/io/summary.hpp"
+#include "dem4grm/io/table_file.hpp"
+
+namespace dem {
+
+/// The user asked for an end (SIGINT, SIGTERM).
+struct StoppedOnRequest : Error {
+  explicit StoppedOnRequest(const std::string& message) : Error(ExitCode::interrupted, message) {}
+};
+
+/// What a run hears from outside and tells to the outside.
+struct RunLinks {
+  LabObserver* listener = nullptr;                        ///< hears everything that the writer hears; may be null
+  const volatile std::sig_atomic_t* stop_flag = nullptr;  ///< not zero: stop after the present row; may be null
+};
+
+/// The forecast of a test that has not begun.
+RemainingTime remaining_time_of(const TestCase& test);
+
+class TestWriter : public LabObserver {
+ public:
+  /// Opens all files of the folder. Throws IoError.
+  TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int threads, const RunLinks& links);
+
+  /// These throw IoError when a file cannot be written; progress() throws StoppedOnRequest when the flag is set.
+  void progress(const Progress& now) override;
+  void note(const std::string& text) override;
+  void warning(const std::string& text) override;
+  void shear_row(const ShearRow& row) override;
+  void compression_row(const CompressionRow& row) override;
+  void frame(const Simulation& state, const FrameInfo& info) override;
+
+  /// Completes all files; summary.json comes last and marks the folder as complete. Returns what it says.
+  JsonObject finish(const DirectShearResult& result);
+  JsonObject finish(const GrainCompressionResult& result);
+  /// Keeps what there is of a run that ends early. Throws nothing: the reason of the end matters more.
+  void give_up(RunState state, const std::string& cause) noexcept;
+
+ private:
+  [[nodiscard]] RunFacts facts() const;
+  [[nodiscard]] double seconds() const;
+  void write_tables();
+  void write_summary(const JsonObject& summary);
+
+  const OutputFolder& folder_;
+  const LoadedCase& loaded_;
+  int threads_;
+  RunLinks links_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  RunLog log_;
+  StatusFile status_;
+  RemainingTime remaining_;
+  ResultsFile results_;
+  std::optional<TableFile> table_;  ///< shear.csv or grain.csv
+  bool is_direct_shear_;
+  bool has_shear_begun_ = false;
+  std::string stage_;
+  double peak_stress_ = 0.0;  ///< Pa, of the rows so far
+  EnergyReport start_energy_, last_energy_;
+  std::vector<FrameInfo> frames_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace dem

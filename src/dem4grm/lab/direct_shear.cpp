@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/lab/direct_shear.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/walls/shear_box.hpp"
+
+namespace dem {
+
+Scene materials_of(const DirectShearCase& test) {
+  Scene scene;
+  scene.gravel = test.gravel;
+  scene.rubber = test.rubber;
+  scene.walls = test.walls;
+  scene.bond = test.bond;
+  scene.contact = test.contact;
+  scene.integration = test.integration;
+  return scene;
+}
+
+SpecimenOrder specimen_order(const DirectShearCase& test) {
+  return {test.specimen,
+          test.box,
+          test.servo,
+          test.equilibrium,
+          materials_of(test),
+          test.rubber_solid_density,
+          test.shear.normal_stress,
+          test.seed};
+}
+
+namespace {
+
+constexpr int k_watch_interval = 500;  // steps between two looks of the watchdog
+/// The halves reach their velocity over this displacement, so that the start is no blow.
+constexpr double k_start_ramp = 2e-5;  // m
+
+/// Sums over one interval of the record.
+struct IntervalSums {
+  double lower = 0.0, upper = 0.0, normal = 0.0, bottom_plate = 0.0, worst_normal = 0.0;
+  int steps = 0;
+};
+
+class ShearStage {
+ public:
+  ShearStage(const DirectShearCase& test, Specimen& specimen, LabObserver& observer)
+      : test_(test), specimen_(specimen), s_(*specimen.simulation), observer_(observer) {
+    s_.servo.speed_cap = std::max(test.servo.shear_speed_cap, test.shear.velocity);
+    start_height_ = plate_height();
+    start_energy_ = s_.energy();
+    collect_frames();
+  }
+
+  void run() {
+    write_frame();
+    while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
+      advance();
+      if (++shear_steps_ % k_watch_interval == 0) watch();
+      if (displacement_ >= next_row_at() * (1.0 - 1e-12)) {
+        finish_row();
+        if (next_frame_ < frames_.size() && displacement_ >= frames_[next_frame_] - 0.5 * test_.recording.interval) {
+          write_frame();
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] const std::vector<ShearRow>& rows() const { return rows_; }
+
+ private:
+  [[nodiscard]] double plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
+  [[nodiscard]] double next_row_at() const {
+    return std::min(static_cast<double>(rows_.size() + 1) * test_.recording.interval, test_.shear.displacement);
+  }
+
+  /// Displacements of the full states: the start, the extra ones, every frame_interval, the end.
+  void collect_frames() {
+    frames_ = test_.recording.extra_frames;
+    const double every = test_.recording.frame_interval, end = test_.shear.displacement;
+    for (int k = 0; k * every < end; ++k) frames_.push_back(k * every);
+    frames_.push_back(end);
+    std::sort(frames_.begin(), frames_.end());
+    const double near = 0.5 * test_.recording.interval;
+    frames_.erase(std::unique(frames_.begin(), frames_.end(), [&](double a, double b) { return b - a < near; }),
+                  frames_.end());
+    std::erase_if(frames_, [&](double d) { return d > end + near; });
+  }
+
+  void advance() {
+    const double v = test_.shear.velocity;
+    const double ramp = std::min(1.0, std::max(0.02, std::sqrt(displacement_ / k_start_ramp)));
+    ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v * ramp, s_.walls[ShearBox::k_top_plate].velocity.z);
+    s_.step();
+    displacement_ += v * ramp * s_.dt;
+    for (int w = 0; w < ShearBox::k_walls; ++w) {
+      const double fx = s_.reactions[static_cast<std::size_t>(w)].force.x;
+      (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += fx;
+    }
+    sums_.bottom_plate += s_.reactions[ShearBox::k_bottom_plate].force.x;
+    const double normal = plate_stress(s_, specimen_.load), target = test_.shear.normal_stress;
+    sums_.normal += normal;
+    if (sums_.steps == 0 || std::fabs(normal - target) > std::fabs(sums_.worst_normal - target)) {
+      sums_.worst_normal = normal;
+    }
+    ++sums_.steps;
+  }
+
+  void finish_row() {
+    const double area = specimen_.load.area, n = sums_.steps;
+    ShearRow row;
+    row.displacement = displacement_;
+    // The lower half moves to +x against the grains, which push it back: its shear stress is minus their force.
+    row.shear_stress = -sums_.lower / n / area;
+    row.shear_stress_corrected = row.shear_stress * test_.box.length / (test_.box.length - displacement_);
+    row.half_force_difference = -(sums_.lower + sums_.upper) / n / area;
+    row.plate_shear_stress = -sums_.bottom_plate / n / area;
+    row.normal_stress = sums_.normal / n;
+    row.normal_stress_worst = sums_.worst_normal;
+    row.vertical_displacement = plate_height() - start_height_;
+    row.void_ratio = plate_void_ratio(s_, specimen_.load);
+    // Inertial number of Chew et al. (2022): rate D sqrt(rho / sigma_n), rate = shear velocity / initial height.
+    row.inertial_number = test_.shear.velocity / start_height_ * specimen_.report.mean_size *
+                          std::sqrt(specimen_.report.mean_density / row.normal_stress);
+    row.unbalanced_ratio = balance(s_).ratio();
+    row.energy = since_start(s_.energy());
+    rows_.push_back(row);
+    sums_ = {};
+    observer_.shear_row(row);
+    report();
+  }
+
+  [[nodiscard]] EnergyReport since_start(EnergyReport e) const {
+    e.boundary_work -= start_energy_.boundary_work;
+    e.slip -= start_energy_.slip;
+    e.dashpot -= start_energy_.dashpot;
+    e.local_damping -= start_energy_.local_damping;
+    return e;
+  }
+
+  void report() {
+    const ShearRow& r = rows_.back();
+    Progress p;
+    p.stage = "shear";
+    p.fraction = displacement_ / test_.shear.displacement;
+    p.displacement = displacement_;
+    p.shear_stress = r.shear_stress;
+    p.normal_stress = r.normal_stress;
+    p.void_ratio = r.void_ratio;
+    p.inertial_number = r.inertial_number;
+    p.unbalanced_ratio = r.unbalanced_ratio;
+    p.steps = shear_steps_;
+    p.time_step = s_.dt;
+    observer_.progress(p);
+  }
+
+  void watch() {
+    const std::string trouble = find_trouble(s_, specimen_.bounds, k_overlap_limit);
+    if (trouble.empty()) {
+      if (!rows_.empty()) report();
+      return;
+    }
+    throw PhysicsError(
+        fmt::format("{} (stage shear, {:.3f} mm). Try a smaller integration.time_step_safety or a slower "
+                    "shear.velocity",
+                    trouble, displacement_ * 1e3));
+  }
+
+  void write_frame() {
+    observer_.frame(s_, {static_cast<int>(next_frame_), displacement_, s_.state_hash()});
+    ++next_frame_;
+  }
+
+  const DirectShearCase& test_;
+  Specimen& specimen_;
+  Simulation& s_;
+  LabObserver& observer_;
+  double displacement_ = 0.0, start_height_ = 0.0;
+  EnergyReport start_energy_;
+  std::vector<double> frames_;
+  std::size_t next_frame_ = 0;
+  std::int64_t shear_steps_ = 0;
+  IntervalSums sums_;
+  std::vector<ShearRow> rows_;
+};
+
+int count_broken_bonds(const Simulation& s) {
+  int broken = 0;
+  if (s.scene.bond.form != BondForm::incremental) return broken;
+  for (int g = 0; g < s.balls.n_grains; ++g) {
+    for (int k = 0; k < k_grain_bonds; ++k) broken += read_bond(s, g, k).is_broken ? 1 : 0;
+  }
+  return broken;
+}
+
+void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShearResult& out) {
+  const Simulation& s = *specimen.simulation;
+  const double target = test.shear.normal_stress;
+  double difference = 0.0;
+  for (const ShearRow& r : out.rows) {
+    out.normal_stress_mean += r.normal_stress;
+    out.normal_stress_max_error = std::max(out.normal_stress_max_error, std::fabs(r.normal_stress / target - 1.0));
+    out.normal_stress_worst_step =
+        std::max(out.normal_stress_worst_step, std::fabs(r.normal_stress_worst / target - 1.0));
+    out.inertial_number_max = std::max(out.inertial_number_max, r.inertial_number);
+    out.unbalanced_ratio_mean += r.unbalanced_ratio;
+    difference += std::fabs(r.half_force_difference);
+  }
+  const auto n = static_cast<double>(out.rows.size());
+  out.normal_stress_mean /= n;
+  out.unbalanced_ratio_mean /= n;
+  if (out.curve.peak_stress > 0.0) out.half_force_imbalance_mean = difference / n / out.curve.peak_stress;
+  out.balls = s.balls.n_balls();
+  out.clumps = static_cast<int>(s.clumps.clumps.size());
+  out.rubber_grains = s.balls.n_grains;
+  out.bonds = s.balls.n_grains * k_grain_bonds;
+  out.broken_bonds = count_broken_bonds(s);
+  out.lost_grains = count_lost_bodies(s, specimen.bounds);
+  out.steps = s.steps + specimen.report.fill_steps;
+  out.time_step = s.dt;
+  out.state_hash = s.state_hash();
+}
+
+}  // namespace
+
+DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer) {
+  Specimen specimen = prepare_specimen(specimen_order(test), [&](const PreparationState& state, const Simulation* s) {
+    Progress p;
+    p.stage = state.stage;
+    p.fraction = state.fraction;
+    p.normal_stress = state.rest.stress;
+    p.void_ratio = state.rest.void_ratio;
+    p.unbalanced_ratio = state.rest.unbalanced_ratio;
+    p.steps = state.rest.steps;
+    p.time_step = s != nullptr ? s->dt : 0.0;
+    observer.progress(p);
+  });
+  const double miss = specimen.report.height / test.box.height - 1.0;
+  if (std::fabs(miss) > 0.05) {
+    observer.warning(fmt::format(
+        "the specimen is {:.1f} mm high, {:+.1f} % off the nominal {:.1f} mm; set "
+        "specimen.expected_void_ratio to {:.3f} for the right number of grains",
+        specimen.report.height * 1e3, miss * 100.0, test.box.height * 1e3, specimen.report.void_ratio_before_shear));
+  }
+  ShearStage stage(test, specimen, observer);
+  stage.run();
+
+  DirectShearResult out;
+  out.specimen = specimen.report;
+  out.rows = stage.rows();
+  out.displacement = out.rows.empty() ? 0.0 : out.rows.back().displacement;
+  out.curve = read_shear_curve(out.rows);
+  summarise(test, specimen, out);
+  return out;
+}
+
+}  // namespace dem

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a test tells the outside while it runs. The lab declares it; files, progress lines and tests implement it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "dem4grm/engine/simulation.hpp"
+
+namespace dem {
+
+/// Where a running test stands. SI units; values that a stage does not have are 0.
+struct Progress {
+  std::string stage;           ///< "fill", "compression", "final friction", "shear"
+  double fraction = 0.0;       ///< of this stage, 0 to 1; below 0 when the end cannot be foreseen
+  double displacement = 0.0;   ///< m
+  double shear_stress = 0.0;   ///< Pa
+  double normal_stress = 0.0;  ///< Pa
+  double void_ratio = 0.0;
+  double inertial_number = 0.0;
+  double unbalanced_ratio = 0.0;
+  std::int64_t steps = 0;  ///< of this stage
+  double time_step = 0.0;  ///< s
+};
+
+/// One row of the record of a shear test: means over one interval of displacement, SI units. Compression and dilation
+/// (plate rising) positive.
+struct ShearRow {
+  double displacement = 0.0;            ///< m, relative displacement of the halves at the end of the interval
+  double shear_stress = 0.0;            ///< Pa, net x-force on the walls of the lower half over the nominal area
+  double shear_stress_corrected = 0.0;  ///< Pa, over the area that is left
+  double normal_stress = 0.0;           ///< Pa, force on the top plate over the nominal area
+  double vertical_displacement = 0.0;   ///< m, of the top plate since shear began
+  double void_ratio = 0.0;
+  double inertial_number = 0.0;
+  double unbalanced_ratio = 0.0;
+  double half_force_difference = 0.0;  ///< Pa, (lower half minus upper half) over the nominal area
+  double normal_stress_worst = 0.0;    ///< Pa, the single step farthest from the target
+  double plate_shear_stress = 0.0;     ///< Pa, share of the lower half's shear stress that its plate carries
+  EnergyReport energy;                 ///< J, since shear began
+};
+
+/// One row of a grain compression test: means over one interval, SI units.
+struct CompressionRow {
+  double strain = 0.0;         ///< approach of the plates over the outer height of the grain
+  double displacement = 0.0;   ///< m, approach of the plates
+  double load = 0.0;           ///< N, mean of both plates
+  double poisson_ratio = 0.0;  ///< of the inner cube of eight balls, secant
+  int closed_second_neighbours = 0;
+  EnergyReport energy;
+};
+
+/// A full state at a displacement.
+struct FrameInfo {
+  int number = 0;
+  double displacement = 0.0;  ///< m
+  std::string state_hash;
+};
+
+class LabObserver {
+ public:
+  LabObserver() = default;
+  LabObserver(const LabObserver&) = delete;
+  LabObserver& operator=(const LabObserver&) = delete;
+  virtual ~LabObserver() = default;
+
+  virtual void progress(const Progress& /*now*/) {}
+  virtual void note(const std::string& /*text*/) {}
+  virtual void warning(const std::string& /*text*/) {}
+  virtual void shear_row(const ShearRow& /*row*/) {}
+  virtual void compression_row(const CompressionRow& /*row*/) {}
+  virtual void frame(const Simulation& /*state*/, const FrameInfo& /*info*/) {}
+};
+
+}  // namespace dem

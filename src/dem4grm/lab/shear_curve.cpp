@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/lab/shear_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dem {
+
+namespace {
+
+constexpr double k_peak_window = 0.1e-3;      // m
+constexpr double k_dilation_window = 1.0e-3;  // m
+constexpr double k_hardening_zone = 1.0e-3;   // m
+constexpr double k_residual_zone = 2.0e-3;    // m
+
+/// First row of the window that ends at row `last` and is `width` long.
+std::size_t window_begin(std::span<const ShearRow> rows, std::size_t last, double width) {
+  const double interval = rows.size() > 1 ? rows[1].displacement - rows[0].displacement : width;
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::round(width / interval)));
+  return last + 1 >= count ? last + 1 - count : 0;
+}
+
+double mean_stress(std::span<const ShearRow> rows) {
+  double sum = 0.0;
+  for (const ShearRow& r : rows) sum += r.shear_stress;
+  return sum / static_cast<double>(rows.size());
+}
+
+/// Least-squares slope of the plate's height against displacement.
+double rise(std::span<const ShearRow> rows) {
+  double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  const double x0 = rows.front().displacement;
+  for (const ShearRow& r : rows) {
+    const double x = r.displacement - x0, y = r.vertical_displacement;
+    sx += x, sy += y, sxx += x * x, sxy += x * y;
+  }
+  const auto n = static_cast<double>(rows.size());
+  const double spread = sxx - sx * sx / n;
+  return spread > 0.0 ? (sxy - sx * sy / n) / spread : 0.0;
+}
+
+}  // namespace
+
+ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
+  ShearCurve c;
+  if (rows.empty() || rows.back().displacement < k_peak_window) return c;
+  const double end = rows.back().displacement;
+  double steepest = -1e300;
+  for (std::size_t last = 0; last < rows.size(); ++last) {
+    const std::size_t begin = window_begin(rows, last, k_peak_window);
+    if (rows[last].displacement >= 0.999 * k_peak_window) {
+      const double mean = mean_stress(rows.subspan(begin, last + 1 - begin));
+      if (mean > c.peak_stress) {
+        c.peak_stress = mean;
+        c.displacement_at_peak = 0.5 * (rows[begin].displacement + rows[last].displacement);
+      }
+    }
+    if (rows[last].displacement >= 0.999 * k_dilation_window) {
+      const std::size_t from = window_begin(rows, last, k_dilation_window);
+      steepest = std::max(steepest, rise(rows.subspan(from, last + 1 - from)));
+    }
+  }
+  c.is_hardening = c.displacement_at_peak > end - k_hardening_zone;
+  c.residual_stress = mean_stress(rows.subspan(window_begin(rows, rows.size() - 1, k_residual_zone)));
+  const auto half =
+      std::find_if(rows.begin(), rows.end(), [&](const ShearRow& r) { return r.shear_stress >= 0.5 * c.peak_stress; });
+  if (half != rows.end() && half->displacement > 0.0) c.secant_stiffness = half->shear_stress / half->displacement;
+  if (steepest > -1e300) c.dilation_angle = std::atan(steepest);
+  c.vertical_displacement_at_end = rows.back().vertical_displacement;
+  return c;
+}
+
+}  // namespace dem

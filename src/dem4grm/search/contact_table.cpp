@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/search/contact_table.hpp"
+
+namespace dem {
+
+namespace {
+
+/// For every new key the position of the same key in the old list, or -1: one pass over two sorted lists.
+void match(const std::vector<PairKey>& old_keys, const std::vector<PairKey>& new_keys, std::size_t old_base,
+           std::size_t new_base, std::vector<std::ptrdiff_t>& source) {
+  std::size_t o = 0;
+  for (std::size_t n = 0; n < new_keys.size(); ++n) {
+    while (o < old_keys.size() && old_keys[o] < new_keys[n]) ++o;
+    if (o < old_keys.size() && old_keys[o] == new_keys[n]) {
+      source[new_base + n] = static_cast<std::ptrdiff_t>(old_base + o);
+    }
+  }
+}
+
+}  // namespace
+
+void ContactTable::replace(std::vector<PairKey> new_pairs, std::vector<PairKey> new_wall_pairs) {
+  const std::size_t old_pair_rows = n_pair_rows();
+  const std::size_t new_pair_rows = (new_pairs.size() + k_contact_batch - 1) / k_contact_batch * k_contact_batch;
+  const std::size_t rows = new_pair_rows + new_wall_pairs.size();
+  std::vector<std::ptrdiff_t> source(rows, -1);
+  match(pairs, new_pairs, 0, 0, source);
+  match(wall_pairs, new_wall_pairs, old_pair_rows, new_pair_rows, source);
+
+  // Forces are carried too, so that a reader of the table between two steps sees the last evaluation.
+  for (auto* a : {&shear_x, &shear_y, &shear_z, &force_x, &force_y, &force_z, &couple_x, &couple_y, &couple_z, &lever_i,
+                  &lever_j}) {
+    AlignedArray<double> fresh(rows);
+    for (std::size_t r = 0; r < rows; ++r) {
+      if (source[r] >= 0) fresh[r] = (*a)[static_cast<std::size_t>(source[r])];
+    }
+    a->swap(fresh);
+  }
+  for (auto* a : {&radius_i, &radius_j, &hertz, &shear_ratio, &friction}) {
+    a->resize(0);
+    a->resize(rows);
+  }
+  for (auto* a : {&index_i, &index_j}) {
+    a->resize(0);
+    a->resize(rows);
+  }
+  pairs = std::move(new_pairs);
+  wall_pairs = std::move(new_wall_pairs);
+}
+
+void ContactReferences::build(const ContactTable& table, std::span<const int> owner_of, std::span<const int> place_of,
+                              int n_owners) {
+  start.assign(static_cast<std::size_t>(n_owners) + 1, 0);
+  const auto owner = [&](int ball) { return static_cast<std::size_t>(owner_of[static_cast<std::size_t>(ball)]); };
+  for (const PairKey key : table.pairs) {
+    ++start[owner(first_of(key)) + 1];
+    ++start[owner(second_of(key)) + 1];
+  }
+  for (const PairKey key : table.wall_pairs) ++start[owner(first_of(key)) + 1];
+  for (std::size_t o = 0; o < static_cast<std::size_t>(n_owners); ++o) start[o + 1] += start[o];
+
+  row.resize(static_cast<std::size_t>(start.back()));
+  place.resize(row.size());
+  std::vector<int> next(start.begin(), start.end() - 1);
+  const auto add = [&](int ball, std::size_t r, int side) {
+    const auto k = static_cast<std::size_t>(next[owner(ball)]++);
+    row[k] = static_cast<int>(r);
+    place[k] = place_of[static_cast<std::size_t>(ball)] | side;
+  };
+  for (std::size_t p = 0; p < table.pairs.size(); ++p) {
+    add(first_of(table.pairs[p]), p, 0);
+    add(second_of(table.pairs[p]), p, k_second);
+  }
+  const std::size_t base = table.n_pair_rows();
+  for (std::size_t p = 0; p < table.wall_pairs.size(); ++p) add(first_of(table.wall_pairs[p]), base + p, 0);
+}
+
+}  // namespace dem

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// From gradings, rubber content and box to the list of grains of a specimen.
+#include "dem4grm/specimen/draw_grains.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/random.hpp"
+#include "dem4grm/grains/rubber_size.hpp"
+#include "dem4grm/specimen/grading.hpp"
+#include "dem4grm/specimen/void_ratio_defaults.hpp"
+
+namespace dem {
+namespace {
+
+constexpr double k_most_grains = 1e7;          // a slip in a unit must not fill the memory
+constexpr double k_rubber_size_spread = 0.10;  // of D50; wider gradings would need grains of several sizes
+
+double cube(double x) { return x * x * x; }
+
+/// Fewest letters to insert, delete or replace that turn one word into the other (Levenshtein 1966).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
+    }
+  }
+  return row.back();
+}
+
+std::string unknown_shape(std::string_view name) {
+  std::vector<std::string> known;
+  for (const ClumpTemplate& shape : standard_clump_templates()) known.push_back(shape.name);
+  known.emplace_back("sphere");
+  const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(a, name) < edit_distance(b, name);
+  });
+  return fmt::format("unknown clump shape '{}': did you mean '{}'? Known are {}", name, *nearest,
+                     fmt::join(known, ", "));
+}
+
+/// Which materials the specimen holds.
+struct Contents {
+  bool has_gravel = false, has_rubber = false;
+};
+
+Contents contents_of(const SpecimenSettings& settings) {
+  return {settings.gravel_clumps ? *settings.gravel_clumps > 0 : settings.rubber_content < 1.0,
+          settings.rubber_grains ? *settings.rubber_grains > 0 : settings.rubber_content > 0.0};
+}
+
+void add_grading_problems(std::vector<std::string>& problems, const char* which, const Grading& grading) {
+  for (const std::string& problem : grading_problems(grading)) {
+    problems.push_back(fmt::format("{} grading: {}", which, problem));
+  }
+}
+
+void check_rubber_spread(std::vector<std::string>& problems, const Grading& grading) {
+  const double middle = d50(grading);
+  const double allowed = k_rubber_size_spread * middle * (1.0 + 1e-9);
+  if (largest_size(grading) - middle > allowed || middle - smallest_size(grading) > allowed) {
+    problems.push_back(
+        fmt::format("rubber grading: sizes from {:.3f} to {:.3f} mm around D50 = {:.3f} mm; a size distribution of "
+                    "rubber is not supported, all sizes must lie within 10 % of D50",
+                    smallest_size(grading) * 1e3, largest_size(grading) * 1e3, middle * 1e3));
+  }
+}
+
+void check_counts(std::vector<std::string>& problems, const SpecimenSettings& settings) {
+  const double content = settings.rubber_content;
+  const int clumps = settings.gravel_clumps.value_or(0), grains = settings.rubber_grains.value_or(0);
+  if (!(content >= 0.0 && content <= 1.0)) {
+    problems.push_back(fmt::format("rubber content {} is outside 0 to 1 (0 to 100 %)", content));
+  }
+  if (clumps < 0 || grains < 0) problems.emplace_back("a number of grains cannot be negative");
+  if (clumps > k_most_grains || grains > k_most_grains) {
+    problems.push_back(fmt::format("more than {:.0f} grains", k_most_grains));
+  }
+  if (content <= 0.0 && grains > 0) problems.push_back(fmt::format("{} rubber grains at rubber content 0", grains));
+  if (content >= 1.0 && clumps > 0) problems.push_back(fmt::format("{} gravel clumps at rubber content 1", clumps));
+}
+
+void check_settings(const SpecimenSettings& settings, const BoxSettings& box) {
+  std::vector<std::string> problems;
+  check_counts(problems, settings);
+  const Contents contents = contents_of(settings);
+  if (!contents.has_gravel && !contents.has_rubber) problems.emplace_back("the specimen would have no grains");
+  if (contents.has_gravel) {
+    add_grading_problems(problems, "gravel", settings.gravel_grading);
+    if (settings.clump_shapes.empty()) problems.emplace_back("no clump shape is named for the gravel");
+  }
+  for (const std::string& name : settings.clump_shapes) {
+    if (find_clump_template(name) == nullptr) problems.push_back(unknown_shape(name));
+  }
+  if (contents.has_rubber) {
+    const std::size_t before = problems.size();
+    add_grading_problems(problems, "rubber", settings.rubber_grading);
+    if (problems.size() == before) check_rubber_spread(problems, settings.rubber_grading);
+  }
+  const double box_volume = box.length * box.width * box.height;
+  if (!(std::isfinite(box_volume) && box.length > 0.0 && box.width > 0.0 && box.height > 0.0)) {
+    problems.emplace_back("length, width and height of the box must be positive");
+  }
+  if (settings.expected_void_ratio && !(*settings.expected_void_ratio > 0.0)) {
+    problems.push_back(fmt::format("expected void ratio {} must be positive", *settings.expected_void_ratio));
+  }
+  if (!problems.empty()) throw InputError(fmt::format("grains of the specimen: {}", fmt::join(problems, "\n  ")));
+}
+
+/// Deals shapes so that each covers the same share of the volume, whatever the size: random among the shapes that are
+/// less than a mean grain ahead of the last. The dealing does not look at sizes, so that it is the same however the
+/// sizes are scaled to reach a number of grains; neighbours on the mass axis are nearly equal, which keeps it fair.
+class ShapeDealer {
+ public:
+  ShapeDealer(const std::vector<ClumpTemplate>& shapes, std::uint64_t seed)
+      : shapes_(shapes), dealt_(shapes.size(), 0.0), random_(seed, RandomStream::grain_shape, 0) {
+    for (const ClumpTemplate& shape : shapes) mean_volume_ += shape.volume / static_cast<double>(shapes.size());
+  }
+
+  int next() {
+    const double lead = *std::min_element(dealt_.begin(), dealt_.end()) + mean_volume_;
+    candidates_.clear();
+    for (std::size_t shape = 0; shape < shapes_.size(); ++shape) {
+      if (dealt_[shape] < lead) candidates_.push_back(static_cast<int>(shape));
+    }
+    const auto pick = static_cast<std::size_t>(random_.uniform() * static_cast<double>(candidates_.size()));
+    const int shape = candidates_[pick];
+    dealt_[static_cast<std::size_t>(shape)] += shapes_[static_cast<std::size_t>(shape)].volume;
+    return shape;
+  }
+
+ private:
+  const std::vector<ClumpTemplate>& shapes_;
+  std::vector<double> dealt_;  ///< volume of all grains of the shape so far, as if all had size 1
+  RandomSequence random_;
+  double mean_volume_ = 0.0;
+  std::vector<int> candidates_;
+};
+
+/// The middle of the mass share that starts at `start`, for a grain of volume shape_volume * size^3 in gravel of volume
+/// `total`: the least m with m = start + shape_volume * size(m)^3 / (2 total). Beyond 1 when no grain fits any more.
+double share_middle(const Grading& grading, double start, double shape_volume, double total) {
+  double middle = start;
+  for (int i = 0; i < 200; ++i) {  // rises to the solution; three or four rounds unless the grains are very few
+    const double next = start + 0.5 * shape_volume * cube(size_at_passing(grading, middle)) / total;
+    if (next <= middle || next > 1.0) return next;
+    middle = next;
+  }
+  return middle;
+}
+
+/// Grains along the mass axis, as many as the volume `total` takes.
+std::vector<GravelGrain> walk_volume(const Grading& grading, const std::vector<ClumpTemplate>& shapes, double total,
+                                     std::uint64_t seed) {
+  ShapeDealer dealer(shapes, seed);
+  std::vector<GravelGrain> grains;
+  for (double start = 0.0;;) {
+    const int shape = dealer.next();
+    const double middle = share_middle(grading, start, shapes[static_cast<std::size_t>(shape)].volume, total);
+    if (middle > 1.0) return grains;
+    grains.push_back({shape, size_at_passing(grading, middle)});
+    start += 2.0 * (middle - start);
+  }
+}
+
+/// Gives sizes to a fixed number of grains; returns where on the mass axis the last share ends.
+double walk_count(const Grading& grading, const std::vector<ClumpTemplate>& shapes, double total,
+                  std::span<GravelGrain> grains) {
+  double start = 0.0;
+  for (GravelGrain& grain : grains) {
+    const double volume = shapes[static_cast<std::size_t>(grain.shape)].volume;
+    const double middle = share_middle(grading, start, volume, total);
+    if (middle > 1.0) return middle;
+    grain.sieve_size = size_at_passing(grading, middle);
+    start += 2.0 * (middle - start);
+  }
+  return start;
+}
+
+/// Exactly so many grains that cover the mass axis: bisection on the total volume, on which the end of the last share
+/// depends in one direction only.
+std::vector<GravelGrain> walk_exact_count(const Grading& grading, const std::vector<ClumpTemplate>& shapes, int count,
+                                          std::uint64_t seed) {
+  ShapeDealer dealer(shapes, seed);
+  std::vector<GravelGrain> grains(static_cast<std::size_t>(count));
+  double unit_volume = 0.0;
+  for (GravelGrain& grain : grains) {
+    grain.shape = dealer.next();
+    unit_volume += shapes[static_cast<std::size_t>(grain.shape)].volume;
+  }
+  double low = 0.5 * unit_volume * cube(smallest_size(grading));  // the last share ends beyond 1
+  double high = 2.0 * unit_volume * cube(largest_size(grading));  // and before 1
+  for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
+    (walk_count(grading, shapes, middle, grains) > 1.0 ? low : high) = middle;
+  }
+  walk_count(grading, shapes, high, grains);
+  return grains;
+}
+
+/// Shuffle after Fisher and Yates; the standard library leaves the order to its makers.
+void shuffle(std::vector<GravelGrain>& grains, std::uint64_t seed) {
+  RandomSequence random(seed, RandomStream::grain_order, 0);
+  for (std::size_t left = grains.size(); left > 1; --left) {
+    const auto pick = static_cast<std::size_t>(random.uniform() * static_cast<double>(left));
+    std::swap(grains[left - 1], grains[pick]);
+  }
+}
+
+void draw_gravel(GrainList& list, const SpecimenSettings& settings, double volume, std::uint64_t seed) {
+  const Grading& grading = settings.gravel_grading;
+  if (settings.gravel_clumps) {
+    list.gravel = walk_exact_count(grading, list.shapes, *settings.gravel_clumps, seed);
+  } else {
+    const double smallest = cube(smallest_size(grading));
+    const auto least = std::min_element(list.shapes.begin(), list.shapes.end(),
+                                        [](const auto& a, const auto& b) { return a.volume < b.volume; });
+    if (volume / (least->volume * smallest) > k_most_grains) {
+      throw InputError(
+          fmt::format("grains of the specimen: the box may hold more than {:.0f} gravel grains; "
+                      "are the sizes in millimetres?",
+                      k_most_grains));
+    }
+    list.gravel = walk_volume(grading, list.shapes, volume, seed);
+  }
+  if (list.gravel.empty()) throw InputError("grains of the specimen: the box is too small for one gravel grain");
+  shuffle(list.gravel, seed);
+  for (const GravelGrain& grain : list.gravel) {
+    list.gravel_volume += list.shapes[static_cast<std::size_t>(grain.shape)].volume * cube(grain.sieve_size);
+  }
+}
+
+void draw_rubber(GrainList& list, const SpecimenSettings& settings, double volume, double ball_density,
+                 double solid_density) {
+  list.rubber_ball_radius = rubber_ball_radius(d50(settings.rubber_grading), ball_density, solid_density);
+  list.rubber_solid_volume = rubber_solid_volume(list.rubber_ball_radius, ball_density, solid_density);
+  const double count =
+      settings.rubber_grains ? *settings.rubber_grains : std::floor(volume / list.rubber_solid_volume + 0.5);
+  if (count > k_most_grains) {
+    throw InputError(fmt::format("grains of the specimen: the box would hold {:.3g} rubber grains, more than {:.0f}",
+                                 count, k_most_grains));
+  }
+  if (count < 1.0) throw InputError("grains of the specimen: the box is too small for one rubber grain");
+  list.rubber_count = static_cast<int>(count);
+  list.rubber_volume = count * list.rubber_solid_volume;
+}
+
+}  // namespace
+
+GrainList draw_grains(const SpecimenSettings& settings, const BoxSettings& box, double ball_density,
+                      double solid_density, std::uint64_t seed) {
+  check_settings(settings, box);
+  const double content = settings.rubber_content;
+  const double void_ratio = settings.expected_void_ratio.value_or(expected_void_ratio(content));
+  const double solid_volume = box.length * box.width * box.height / (1.0 + void_ratio);
+
+  GrainList list;
+  for (const std::string& name : settings.clump_shapes) list.shapes.push_back(*find_clump_template(name));
+  const Contents contents = contents_of(settings);
+  if (contents.has_rubber) draw_rubber(list, settings, content * solid_volume, ball_density, solid_density);
+  if (contents.has_gravel) draw_gravel(list, settings, (1.0 - content) * solid_volume, seed);
+  return list;
+}
+
+}  // namespace dem

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bringing a specimen to rest under its plate.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "dem4grm/engine/observe.hpp"
+#include "dem4grm/engine/simulation.hpp"
+
+namespace dem {
+
+/// The plate that loads a specimen.
+struct PlateLoad {
+  int wall = 0;               ///< index of the plate
+  double area = 0.0;          ///< m2
+  double stress = 0.0;        ///< Pa, compression positive
+  double speed_cap = 0.0;     ///< m/s
+  double gain = 0.5;          ///< of the servo
+  double solid_volume = 0.0;  ///< m3, for the void ratio
+};
+
+/// How far a specimen is from rest.
+struct RestState {
+  std::int64_t steps = 0;         ///< since the stage began
+  int held = 0;                   ///< steps in a row for which all criteria held
+  double stress = 0.0;            ///< Pa, of the plate
+  double plate_speed = 0.0;       ///< m/s, mean over the last check interval, up positive
+  double unbalanced_ratio = 0.0;  ///< mean net force on a body over mean contact force
+  double void_ratio = 0.0;
+};
+
+/// Stress on the plate, Pa, compression positive.
+double plate_stress(const Simulation& s, const PlateLoad& load);
+/// Void ratio from the height of the plate: area * height / solid volume - 1.
+double plate_void_ratio(const Simulation& s, const PlateLoad& load);
+
+/// Steps between two looks at the criteria and at the watchdog.
+inline constexpr int k_rest_interval = 100;
+
+/// Runs until every criterion of the settings has held for hold_steps. `watch` is called every k_rest_interval steps
+/// and may throw. Throws PhysicsError after most_steps, with the criterion that was not met.
+RestState bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumSettings& settings,
+                        const std::function<void(const RestState&)>& watch);
+
+}  // namespace dem

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings of a specimen: gradings, contents and how it is prepared, in SI units.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace dem {
+
+/// One line of a grading: share of the mass that passes a sieve.
+struct GradingPoint {
+  double size = 0.0;     ///< m, square opening
+  double passing = 0.0;  ///< fraction of mass, 0 to 1
+};
+using Grading = std::vector<GradingPoint>;
+
+struct SpecimenSettings {
+  double rubber_content = 0.0;             ///< VRC, fraction of the solid volume
+  double preparation_friction = 0.3;       ///< of all contacts between grains while the plate compresses
+  Grading gravel_grading, rubber_grading;  ///< read from the files named in the case
+  std::string gravel_grading_file, rubber_grading_file;
+  std::vector<std::string> clump_shapes{"T1", "T2", "T3", "T4", "T5", "T6"};
+  std::optional<int> gravel_clumps;  ///< explicit count instead of the one from the box volume
+  std::optional<int> rubber_grains;
+  std::optional<double> expected_void_ratio;    ///< sets the number of grains; default by rubber content
+  std::optional<double> generation_void_ratio;  ///< of the random fill; default: laboratory value by rubber content
+  double generation_friction = 0.0;
+  double approach_speed = 0.05;  ///< m/s, largest speed of the plate before shear
+};
+
+}  // namespace dem

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Settings of the shear box and of the plate servo, in SI units.
+#pragma once
+
+#include <cstdint>
+
+namespace dem {
+
+struct BoxSettings {
+  double length = 0.100;        ///< m, along x, the shear direction
+  double width = 0.100;         ///< m, along y
+  double height = 0.053;        ///< m, nominal height of the specimen; the halves part at half of it
+  double upper_height = 0.080;  ///< m, height of the upper walls
+  double gap = 0.0;             ///< m, between the halves
+  double wing = 0.020;          ///< m, length of the wings
+};
+
+struct ServoSettings {
+  double gain = 0.5;              ///< share of the force error removed per step
+  double shear_speed_cap = 0.01;  ///< m/s; the larger of this and the shear velocity holds
+};
+
+enum class MovingHalf : std::uint8_t { lower, upper, both };
+
+}  // namespace dem

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The shear box: two halves with wings, and the plate on top.
+//
+//        upper half (walls from the split plane up)        plate, moves in z only within the upper half
+//          |==================================|
+//          |                                  |  upper wing
+//   _______|                                  |_________     split plane z = height / 2
+//   lower wing |                                  |
+//              |                                  |
+//              |__________________________________|
+//              lower half, moved in +x against the upper one
+//
+// Axes: x shear direction, y width, z up; corner of the closed box at the origin. The wings close the openings that the
+// halves leave when they part. All lateral walls and wings are frictionless; the plates get their friction for the
+// test.
+#pragma once
+
+#include <vector>
+
+#include "dem4grm/walls/box_settings.hpp"
+#include "dem4grm/walls/wall.hpp"
+
+namespace dem {
+
+enum class BoxHalf : unsigned char { lower, upper };
+
+/// The walls of a shear box and how they move. Wall indices are fixed: see the constants.
+class ShearBox {
+ public:
+  static constexpr int k_bottom_plate = 0;
+  static constexpr int k_top_plate = 6;
+  static constexpr int k_walls = 12;
+
+  /// plate_height: z of the top plate, m.
+  ShearBox(const BoxSettings& settings, double plate_height);
+
+  /// Walls 0 to 5: bottom plate, four sides and wing of the lower half; 6 to 11: top plate, sides and wing of the
+  /// upper.
+  [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
+  [[nodiscard]] std::vector<Wall>& walls() { return walls_; }
+  static BoxHalf half_of(int wall) { return wall < k_top_plate ? BoxHalf::lower : BoxHalf::upper; }
+
+  /// Velocities of all walls for a relative shear velocity (lower against upper, in +x) and a plate velocity (up), m/s.
+  static void set_velocities(std::vector<Wall>& walls, MovingHalf moving, double shear_velocity, double plate_velocity);
+
+  [[nodiscard]] double nominal_area() const { return settings_.length * settings_.width; }
+
+ private:
+  BoxSettings settings_;
+  std::vector<Wall> walls_;
+};
+
+}  // namespace dem

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs, on Debian 12, what DEM4GRM needs. Does nothing, and asks for no rights, when everything is there.
+#
+#   tools/install_dependencies.sh build        to build and to run
+#   tools/install_dependencies.sh test         the same, and all that test.sh uses
+#   tools/install_dependencies.sh --list test  names the packages and stops
+#
+# Exit codes: 0 everything is installed, 64 wrong usage, 69 packages are missing and cannot be installed.
+set -euo pipefail
+
+build_packages=(
+  g++ cmake ninja-build make pkg-config git ca-certificates
+  libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
+  libhdf5-dev libxxhash-dev libeigen3-dev
+)
+# clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
+# see docs/decisions/0003-thread-sanitizer.md.
+test_packages=(
+  "${build_packages[@]}"
+  libgtest-dev librapidcheck-dev
+  clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
+  python3 python3-numpy python3-h5py python3-matplotlib
+)
+
+usage() {
+  echo "usage: tools/install_dependencies.sh [--list] build|test" >&2
+  exit 64
+}
+
+is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null | sort -u)" == installed ]]; }
+
+has_candidate() {
+  local candidate
+  candidate="$(LC_ALL=C apt-cache policy "$1" 2>/dev/null | awk '$1 == "Candidate:" { print $2; exit }')"
+  [[ -n "$candidate" && "$candidate" != "(none)" ]]
+}
+
+list_only=no
+if [[ "${1:-}" == --list ]]; then
+  list_only=yes
+  shift
+fi
+[[ $# -eq 1 ]] || usage
+case "$1" in
+  build) packages=("${build_packages[@]}") ;;
+  test) packages=("${test_packages[@]}") ;;
+  *) usage ;;
+esac
+if [[ $list_only == yes ]]; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "install_dependencies: this system has no apt. Install the counterparts of these Debian 12 packages by hand:" >&2
+  echo "  ${packages[*]}" >&2
+  exit 69
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  is_installed "$package" || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  echo "install_dependencies: all ${#packages[@]} packages of group '$1' are installed"
+  exit 0
+fi
+
+# An administrator's rights: root has them, others through sudo. Without a terminal sudo must not wait for a password.
+as_root=()
+if [[ "$(id -u)" -ne 0 ]]; then
+  if command -v sudo >/dev/null && { [[ -t 0 ]] || sudo -n true 2>/dev/null; }; then
+    as_root=(sudo)
+  else
+    echo "install_dependencies: ${#missing[@]} packages are missing, and you are neither root nor able to use sudo." >&2
+    echo "Ask an administrator to run:" >&2
+    echo "  apt-get install --no-install-recommends ${missing[*]}" >&2
+    exit 69
+  fi
+fi
+apt() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get "$@"; }
+install_missing() { apt install -y -q --no-install-recommends "${missing[@]}"; }
+
+echo "install_dependencies: installing ${missing[*]}"
+lists_are_fresh=no
+for package in "${missing[@]}"; do
+  if ! has_candidate "$package"; then
+    apt update -q
+    lists_are_fresh=yes
+    break
+  fi
+done
+# Old package lists name versions that are gone from the archive: then one update and one more try.
+if ! install_missing; then
+  if [[ $lists_are_fresh == no ]] && apt update -q && install_missing; then
+    exit 0
+  fi
+  echo "install_dependencies: apt-get could not install all of: ${missing[*]}" >&2
+  echo "The text above says why; the packages are those of Debian 12." >&2
+  exit 69
+fi
