@@ -11,6 +11,7 @@
 #include "run_report.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
+#include "thread_tuner.hpp"
 #include "verbs.hpp"
 
 namespace dem {
@@ -38,11 +39,14 @@ void run(const RunOptions& options) {
   if (!options.is_quiet) {
     for (const std::string& text : loaded.warnings) print_warning(text);
   }
-  const int threads = options.threads > 0 ? options.threads : std::min(omp_get_num_procs(), k_most_threads);
+  const bool is_free = options.threads == 0;  // then the number may change during the run
+  const int threads = is_free ? std::min(omp_get_num_procs(), k_most_threads) : options.threads;
   omp_set_num_threads(threads);
   install_stop_signals();
   ProgressLine line(remaining_time_of(loaded.test), loudness_of(options));
-  const RunOutcome outcome = run_case(loaded, {folder, threads, {&line, &stop_requested}});
+  ThreadTuner tuner(line, threads);
+  LabObserver& listener = is_free ? static_cast<LabObserver&>(tuner) : line;
+  const RunOutcome outcome = run_case(loaded, {folder, threads, {&listener, &stop_requested}});
   line.close_line();
   if (options.is_json) {
     JsonObject answer = outcome.summary;
@@ -62,7 +66,7 @@ void add_run(CLI::App& app) {
   verb->add_option("CASE", options->case_path, "case file")->required();
   verb->add_option("-o,--output", options->folder, "output folder, default runs/<name of the case>")->type_name("DIR");
   verb->add_option("-j,--threads", options->threads,
-                   "threads, default all processors; any number gives\nthe same results")
+                   "threads; by default as many processors as pay off,\nany number gives the same results")
       ->type_name("N")
       ->check(CLI::Range(1, k_most_threads));
   add_set_option(*verb, options->settings);

@@ -69,6 +69,16 @@ inline void run_steps(Simulation& s, int n) {
   for (int k = 0; k < n; ++k) s.step();
 }
 
+/// Steps until done() holds. False when it does not after most_steps: a broken engine must fail a test, not hang it.
+template <class Done>
+bool run_until(Simulation& s, int most_steps, const Done& done) {
+  for (int k = 0; k < most_steps; ++k) {
+    s.step();
+    if (done()) return true;
+  }
+  return false;
+}
+
 /// Shear modulus from Young's modulus.
 inline double shear_modulus(double young, double poisson) { return young / (2.0 * (1.0 + poisson)); }
 

@@ -203,7 +203,7 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   const int growths = std::max(1, static_cast<int>(std::ceil((1.0 - scale) / settings.growth)));
   for (int k = 1; k <= growths; ++k) {
     fill.steps += grow_to(s, scale + (1.0 - scale) * k / growths, longest, settings);
-    if (progress) progress(static_cast<double>(k) / (growths + 1));
+    if (progress) progress(static_cast<double>(k) / (growths + 1), fill.steps);
   }
   relax(s, longest, settings, fill);
   const OverlapReport overlap = worst_overlap(s);
@@ -213,7 +213,7 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   for (const Clump& c : s.clumps.clumps) {
     (c.material == k_rubber ? fill.rubber : fill.gravel).push_back({c.position, c.orientation});
   }
-  if (progress) progress(1.0);
+  if (progress) progress(1.0, fill.steps);
   return fill;
 }
 

@@ -44,8 +44,8 @@ struct Fill {
   int steps = 0;
 };
 
-/// Share done, 0 to 1; called now and then. May throw to stop.
-using FillProgress = std::function<void(double)>;
+/// Share done, 0 to 1, and time steps so far; called now and then. May throw to stop.
+using FillProgress = std::function<void(double share, std::int64_t steps)>;
 
 /// Makes the fill. materials: a scene whose materials, contact and bond settings are used. Throws PhysicsError when the
 /// grains do not fit the box or do not come to rest.

@@ -50,8 +50,10 @@ Fill fill_box(const SpecimenOrder& order, const GrainList& grains, double void_r
   settings.void_ratio = void_ratio;
   settings.friction = order.specimen.generation_friction;
   settings.seed = order.seed;
-  return make_fill(grains, order.box, order.materials, settings, [&](double share) {
-    watch({"fill", share, {}}, nullptr);
+  return make_fill(grains, order.box, order.materials, settings, [&](double share, std::int64_t steps) {
+    PreparationState now{"fill", share, {}};
+    now.rest.steps = steps;
+    watch(now, nullptr);
   });
 }
 

@@ -127,7 +127,7 @@ TEST(LocalDamping, OscillatorLosesItsKnownShare) {
   const double dt = 1e-4;
   int crossings = 0;
   double extreme = 0.0;
-  while (crossings < 4) {
+  for (int k = 0; k < 1000000 && crossings < 4; ++k) {
     v += locally_damped(-x, v, 0.2) * dt;
     const double before = x;
     x += v * dt;
