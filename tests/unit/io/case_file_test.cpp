@@ -4,6 +4,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <type_traits>
 
@@ -219,6 +221,14 @@ TEST(CaseFile, GradingsOfTheTemplateAreTheShippedFiles) {
   };
   expect_equal(test.specimen.gravel_grading, "gravel-rounded.csv");
   expect_equal(test.specimen.rubber_grading, "rubber-3.7mm.csv");
+}
+
+TEST(CaseFile, ManualHoldsTheKeyTableOfTheProgram) {
+  const std::filesystem::path manual = std::filesystem::path(DEM_SOURCE_DIR) / "docs" / "reference" / "case-file.md";
+  std::ifstream file(manual);
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  EXPECT_NE(text.find(key_table_markdown()), std::string::npos)
+      << "write the output of `dem4grm check --keys` into " << manual;
 }
 
 TEST(CaseFile, KeyTableNamesEveryKeyOfBothTests) {
