@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/walls/servo.hpp"
 
 namespace dem {
 
 void Simulation::step() {
+  require(dt > 0.0, "the time step was never set");
   refresh_candidates(*this);
   evaluate_ball_contacts(*this);
   evaluate_wall_contacts(*this);
