@@ -17,11 +17,13 @@ namespace {
 
 constexpr std::uint64_t k_search_seed = 0;  // fixed: the size of a shape must not hang on the seed of a run
 constexpr int k_starts = 2000;              // random orientations, about 10 degrees apart
-constexpr std::size_t k_refined = 12;       // the best of them are refined: there are several local minima
+constexpr std::size_t k_refined = 24;       // the best of them are refined: there are several local minima
 constexpr int k_trials = 80;                // random turns that are tried before the turns get smaller
 constexpr int k_most_trials = 100000;       // of one refinement, so that it ends whatever happens
 constexpr double k_first_turn = 0.1;        // rad
 constexpr double k_last_turn = 1e-11;       // rad
+constexpr int k_most_descents = 20;         // from one start
+constexpr double k_settled = 1e-10;         // relative gain of a descent that counts as none
 
 double width(std::span<const Pebble> pebbles, const Vec3& u) {
   double low = dot(pebbles[0].position, u) - pebbles[0].radius;
@@ -47,7 +49,7 @@ struct Candidate {
 
 /// Descent by random turns that get smaller when none of them helps. The side has kinks in its valleys, where
 /// gradients and moves along fixed axes get stuck; random turns do not.
-double refine(std::span<const Pebble> pebbles, Candidate best, RandomSequence& random) {
+Candidate refine(std::span<const Pebble> pebbles, Candidate best, RandomSequence& random) {
   int trials = 0;
   for (double turn = k_first_turn; turn > k_last_turn && trials < k_most_trials;) {
     bool is_better = false;
@@ -62,6 +64,18 @@ double refine(std::span<const Pebble> pebbles, Candidate best, RandomSequence& r
       }
     }
     if (!is_better) turn *= 0.5;
+  }
+  return best;
+}
+
+/// Descents, each from where the last one ended, until a fresh one with large turns gains nothing: a single descent
+/// can run its turns down to nothing in a narrow valley whose floor still falls.
+double refine_until_settled(std::span<const Pebble> pebbles, Candidate best, RandomSequence& random) {
+  for (int descent = 0; descent < k_most_descents; ++descent) {
+    const Candidate refined = refine(pebbles, best, random);
+    const bool is_settled = best.side - refined.side <= k_settled * refined.side;
+    best = refined;
+    if (is_settled) break;
   }
   return best.side;
 }
@@ -87,7 +101,8 @@ double smallest_square_opening(std::span<const Pebble> pebbles) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.side < b.side; });
   double smallest = candidates.front().side;
-  for (std::size_t i = 0; i < k_refined; ++i) smallest = std::min(smallest, refine(pebbles, candidates[i], random));
+  for (std::size_t i = 0; i < k_refined; ++i)
+    smallest = std::min(smallest, refine_until_settled(pebbles, candidates[i], random));
   return rounded(smallest);
 }
 
