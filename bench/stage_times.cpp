@@ -40,7 +40,7 @@ dem::Specimen near_rest(const dem::DirectShearCase& test) {
   order.equilibrium.force_ratio = 1e-2;
   order.equilibrium.plate_speed = 1.0;
   order.equilibrium.hold_steps = 100;
-  return dem::prepare_specimen(order, [](const dem::PreparationState&, const dem::Simulation*) {});
+  return dem::prepare_specimen(order, {});
 }
 
 void measure(const std::string& path, int threads, int steps) {

@@ -15,6 +15,7 @@ struct MixtureOptions {
   std::array<int, 3> cells{7, 5, 4};
   ContactSettings contact;
   BondForm form = BondForm::history_free;
+  double spring_friction = 0.0;
   double skin_factor = 1.0;
   int rebuild_every = 0;  ///< 0: when the engine wants it
   std::uint64_t seed = 1;
@@ -40,6 +41,7 @@ inline Scene mixture_scene(const MixtureOptions& o = {}) {
   scene.integration.local_damping = 0.2;
   scene.contact = o.contact;
   scene.bond.form = o.form;
+  scene.bond.spring_friction = o.spring_friction;
   scene.rubber_ball_radius = 0.5e-3;
   scene.shapes = standard_clump_templates();
   const BoxSettings box = mixture_box(o);

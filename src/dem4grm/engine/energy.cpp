@@ -52,6 +52,20 @@ double second_neighbour_energy(const Simulation& s, int grain) {
   return energy;
 }
 
+/// Stored by what acts beside an unbroken bond and its frictionless spring.
+double companion_energy(const Simulation& s, int grain, int bond_index, double length) {
+  if (s.grain_history.companion_shear.empty()) return 0.0;
+  const std::size_t w = k_lanes, block = static_cast<std::size_t>(grain) / w,
+                    lane = static_cast<std::size_t>(grain) % w;
+  const double* h = s.grain_history.companion_shear.data() +
+                    (block * k_grain_bonds + static_cast<std::size_t>(bond_index)) * 3 * w + lane;
+  const Vec3 shear{h[0], h[w], h[2 * w]};
+  if (s.scene.bond.hertz_contact) {
+    return hertz_mindlin_energy(s.second_neighbour, 2.0 * s.scene.rubber_ball_radius - length, shear);
+  }
+  return s.bond.linear_shear_stiffness > 0.0 ? 0.5 * dot(shear, shear) / s.bond.linear_shear_stiffness : 0.0;
+}
+
 }  // namespace
 
 BondReading read_bond(const Simulation& s, int grain, int bond_index) {
@@ -92,9 +106,10 @@ EnergyReport Simulation::energy() const {
   for (int g = 0; g < balls.n_grains; ++g) {
     for (int k = 0; k < k_grain_bonds; ++k) {
       const BondReading r = read_bond(*this, g, k);
-      e.bond_strain += r.is_broken
-                           ? hertz_mindlin_energy(second_neighbour, 2.0 * scene.rubber_ball_radius - r.length, r.shear)
-                           : bond_energy(bond, r.length, r.shear, r.moment, r.normal);
+      e.bond_strain +=
+          r.is_broken
+              ? hertz_mindlin_energy(second_neighbour, 2.0 * scene.rubber_ball_radius - r.length, r.shear)
+              : bond_energy(bond, r.length, r.shear, r.moment, r.normal) + companion_energy(*this, g, k, r.length);
     }
     e.contact_strain += second_neighbour_energy(*this, g);
   }
@@ -129,6 +144,11 @@ std::string Simulation::state_hash() const {
     for (std::size_t k = 0; k < k_grain_second_neighbours * 3; ++k) {
       // Adding zero drops the sign of -0, which an open pair keeps or not depending on the lanes beside it.
       h.add(grain_history.second_neighbour_shear[(block * k_grain_second_neighbours * 3 + k) * w + lane] + 0.0);
+    }
+    if (!grain_history.companion_shear.empty()) {
+      for (std::size_t k = 0; k < k_grain_bonds * 3; ++k) {
+        h.add(grain_history.companion_shear[(block * k_grain_bonds * 3 + k) * w + lane]);
+      }
     }
     if (scene.bond.form != BondForm::incremental) continue;
     for (std::size_t k = 0; k < k_grain_bonds * 6; ++k) {

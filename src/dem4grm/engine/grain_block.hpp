@@ -49,6 +49,10 @@ struct alignas(64) BlockLosses {
 void add_history_free_bonds(const BondParameters& p, const GrainBlock& g, double dt, BlockForces& out,
                             BlockLosses& losses);
 
+/// What a case asks for beside the bonds of one block: linear springs with friction, or Hertz contacts
+/// (bond_companion.cpp).
+void add_bond_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses);
+
 /// Bonds of one block in the incremental form; broken pairs become Hertz contacts in the same step.
 void add_incremental_bonds(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses);
 

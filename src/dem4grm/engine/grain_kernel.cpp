@@ -139,6 +139,7 @@ void advance_block(Simulation& s, std::size_t block) {
   } else {
     add_history_free_bonds(s.bond, g, s.dt, load, losses);
   }
+  if (!s.grain_history.companion_shear.empty()) add_bond_companions(s, block, load, losses);
   const std::size_t first = block * k_lanes;
   s.block_top_speed2[block] =
       integrate(s, g, load, s.lane_inverse_mass.data() + first, s.ledger.grain_damping.data() + first);

@@ -24,9 +24,17 @@ double ball_mass(double radius, double density) {
 
 BondDescription describe_bond(const Scene& scene, double mass) {
   const BondSettings& b = scene.bond;
-  return {scene.rubber_ball_radius, mass,           b.modulus,       b.stiffness_ratio,
-          b.radius_multiplier,      b.moment_scale, b.damping_ratio, b.tensile_strength,
-          b.shear_strength,         b.linear_spring};
+  return {scene.rubber_ball_radius,
+          mass,
+          b.modulus,
+          b.stiffness_ratio,
+          b.radius_multiplier,
+          b.moment_scale,
+          b.damping_ratio,
+          b.tensile_strength,
+          b.shear_strength,
+          b.linear_spring,
+          b.spring_friction};
 }
 
 }  // namespace
@@ -78,6 +86,12 @@ void Simulation::place_grains() {
   ledger.grain_slip.resize(blocks * w);
   grain_history.second_neighbour_shear.resize(blocks * k_grain_second_neighbours * 3 * w);
   grain_history.second_neighbour_touches.resize(blocks * k_grain_second_neighbours);
+  if (scene.bond.spring_friction > 0.0 && scene.bond.hertz_contact) {
+    throw InputError("bonded balls are either in Hertz contact or have a linear spring with friction, not both");
+  }
+  if (scene.bond.spring_friction > 0.0 || scene.bond.hertz_contact) {
+    grain_history.companion_shear.resize(blocks * k_grain_bonds * 3 * w);
+  }
   if (scene.bond.form == BondForm::incremental) {
     grain_history.bond.resize(blocks * k_grain_bonds * 6 * w);
     grain_history.bond_is_broken.resize(blocks * k_grain_bonds * w);
@@ -223,13 +237,20 @@ void Simulation::rebuild_candidates() {
   }
   const SearchBalls view{built_at[0], built_at[1], built_at[2], radius, body_of};
   contacts.replace(find_pairs(view, skin), find_wall_pairs(view, walls, skin));
+  prepare_rows();
+  travel = wall_travel = 0.0;
+  candidates_valid = true;
+  ++rebuilds;
+}
 
+void Simulation::prepare_rows() {
+  const auto radius_of = [&](int ball) { return balls.radius[static_cast<std::size_t>(balls.index_of_id(ball))]; };
   const bool dashpots = scene.contact.normal_damping_ratio > 0.0 || scene.contact.shear_damping_ratio > 0.0;
   contacts.normal_dashpot.resize(dashpots ? contacts.n_rows() : 0);
   contacts.shear_dashpot.resize(dashpots ? contacts.n_rows() : 0);
   const auto fill = [&](std::size_t row, int ball, const HertzParameters& p) {
     contacts.index_i[row] = balls.index_of_id(ball);
-    contacts.radius_i[row] = radius[static_cast<std::size_t>(ball)];
+    contacts.radius_i[row] = radius_of(ball);
     contacts.hertz[row] = p.hertz;
     contacts.shear_ratio[row] = p.shear_ratio;
     contacts.friction[row] = p.friction;
@@ -242,7 +263,7 @@ void Simulation::rebuild_candidates() {
     const int i = first_of(contacts.pairs[c]), j = second_of(contacts.pairs[c]);
     fill(c, i, contact_parameters(i, j, -1));
     contacts.index_j[c] = balls.index_of_id(j);
-    contacts.radius_j[c] = radius[static_cast<std::size_t>(j)];
+    contacts.radius_j[c] = radius_of(j);
   }
   wall_group.clear();
   for (std::size_t c = 0; c < contacts.wall_pairs.size(); ++c) {
@@ -257,9 +278,6 @@ void Simulation::rebuild_candidates() {
             "a ball is near more walls than the wall stage holds");
   }
   references.build(contacts, owner_of, place_of, balls.n_blocks + static_cast<int>(clumps.clumps.size()));
-  travel = wall_travel = 0.0;
-  candidates_valid = true;
-  ++rebuilds;
 }
 
 }  // namespace dem

@@ -4,7 +4,8 @@
 // Order of a step (step.cpp): candidates - ball contacts - wall contacts - rubber grains - clumps - walls. Positions
 // belong to full steps, velocities to half steps (leapfrog); contact laws see the positions of the full step and the
 // velocities that led there. Every stage runs over blocks of fixed size, every sum has a fixed order: the bits do not
-// depend on the number of threads, on the pack width, or on when the candidate list was rebuilt.
+// depend on the number of threads or on the pack width. A list of candidates that was built at another time changes no
+// force on a grain, but the last bits of sums over many wall contacts and of works.
 #pragma once
 
 #include <array>
@@ -42,6 +43,7 @@ struct GrainHistory {
   AlignedArray<unsigned char> second_neighbour_touches;  ///< [n_blocks][66] bit per lane: has history
   AlignedArray<double> bond;                             ///< incremental form only: [n_blocks][64][6][W]
   AlignedArray<unsigned char> bond_is_broken;            ///< incremental form only: [n_blocks][64][W]
+  AlignedArray<double> companion_shear;  ///< [n_blocks][64][3][W] N; empty unless a contact acts beside the bonds
 };
 
 /// Work done since the start, J. What the grains lost, except `boundary`, which the walls put in.
@@ -87,6 +89,8 @@ class Simulation {
   /// Must be called after positions, sizes or walls were changed by hand.
   void invalidate_candidates() { candidates_valid = false; }
   void rebuild_candidates();
+  /// Fills what follows from the lists of candidates: constants of the rows, groups of walls, references of the owners.
+  void prepare_rows();
 
   [[nodiscard]] EnergyReport energy() const;
   /// Fingerprint of the complete mechanical state, in order of ids.

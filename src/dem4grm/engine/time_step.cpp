@@ -80,9 +80,10 @@ GrainMatrices loaded_grain(const Scene& scene) {
   const double r = scene.rubber_ball_radius;
   const double mass = 4.0 / 3.0 * std::numbers::pi * r * r * r * scene.rubber.density, inertia = 0.4 * mass * r * r;
   const BondSettings& settings = scene.bond;
-  const BondParameters bond = bond_parameters(
-      {r, mass, settings.modulus, settings.stiffness_ratio, settings.radius_multiplier, settings.moment_scale,
-       settings.damping_ratio, settings.tensile_strength, settings.shear_strength, settings.linear_spring});
+  const BondParameters bond =
+      bond_parameters({r, mass, settings.modulus, settings.stiffness_ratio, settings.radius_multiplier,
+                       settings.moment_scale, settings.damping_ratio, settings.tensile_strength,
+                       settings.shear_strength, settings.linear_spring, settings.spring_friction});
   const Elastic rubber{scene.rubber.shear_modulus, scene.rubber.poisson_ratio};
   const MixedElastic own = mix(rubber, rubber);
   const MixedElastic outer = mix(rubber, {scene.walls.shear_modulus, scene.walls.poisson_ratio});
@@ -93,6 +94,8 @@ GrainMatrices loaded_grain(const Scene& scene) {
   const auto direction = [](const SlotPair& p) -> Eigen::Vector3d {
     return (eigen(grain_site(p.j)) - eigen(grain_site(p.i))).normalized();
   };
+  const Joint inside = hertz_joint(inner_contact, k_second_neighbour_overlap * r);
+  const Joint inside_dashpots = hertz_dashpots(scene.contact, inside, 0.5 * mass);
   for (const SlotPair& p : k_bonds_of_grain) {
     const Eigen::Vector3d n = direction(p);
     add_joint(g.stiffness, p.i, p.j, n, r,
@@ -100,9 +103,14 @@ GrainMatrices loaded_grain(const Scene& scene) {
                bond.twisting_stiffness},
               mass, inertia);
     add_joint(g.damping, p.i, p.j, n, r, {bond.dashpot, 0, 0, 0}, mass, inertia);
+    if (settings.spring_friction > 0.0) {
+      add_joint(g.stiffness, p.i, p.j, n, r, {0, bond.linear_shear_stiffness, 0, 0}, mass, inertia);
+    }
+    if (settings.hertz_contact) {
+      add_joint(g.stiffness, p.i, p.j, n, r, inside, mass, inertia);
+      add_joint(g.damping, p.i, p.j, n, r, inside_dashpots, mass, inertia);
+    }
   }
-  const Joint inside = hertz_joint(inner_contact, k_second_neighbour_overlap * r);
-  const Joint inside_dashpots = hertz_dashpots(scene.contact, inside, 0.5 * mass);
   for (const SlotPair& p : k_second_neighbours_of_grain) {
     add_joint(g.stiffness, p.i, p.j, direction(p), r, inside, mass, inertia);
     add_joint(g.damping, p.i, p.j, direction(p), r, inside_dashpots, mass, inertia);

@@ -30,6 +30,8 @@ struct BondSettings {
   double tensile_strength = 30e200;  ///< Pa
   double shear_strength = 30e200;    ///< Pa
   bool linear_spring = true;         ///< linear spring of the same modulus in compression, beside the bond
+  double spring_friction = 0.0;      ///< Coulomb coefficient of a shear force of the linear spring; 0: it only pushes
+  bool hertz_contact = false;        ///< Hertz-Mindlin contact of the bonded balls beside the bond
   BondForm form = BondForm::history_free;
 };
 

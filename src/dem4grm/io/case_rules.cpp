@@ -164,6 +164,17 @@ void check_shear(const DirectShearCase& test, Rules& rules) {
 void check_bond(const BondSettings& bond, Rules& rules) {
   const GivenKeys& given = rules.given;
   CaseProblems& problems = rules.problems;
+  if (given.are_good({"rubber.bond.spring_friction", "rubber.bond.hertz_contact"}) && bond.spring_friction > 0.0 &&
+      bond.hertz_contact) {
+    problems.error(given.place_of({"rubber.bond.hertz_contact", "rubber.bond.spring_friction"}),
+                   "rubber.bond.hertz_contact = true does not go with rubber.bond.spring_friction above 0",
+                   "bonded balls have one kind of friction beside the bond");
+  }
+  if (given.are_good({"rubber.bond.spring_friction", "rubber.bond.linear_spring"}) && bond.spring_friction > 0.0 &&
+      !bond.linear_spring) {
+    problems.error(given.place_of({"rubber.bond.spring_friction", "rubber.bond.linear_spring"}),
+                   "rubber.bond.spring_friction needs rubber.bond.linear_spring = true");
+  }
   if (!given.are_good({"rubber.bond.form"}) || bond.form != BondForm::history_free) return;
   const auto check_strength = [&](std::string_view key, double strength) {
     constexpr double k_never = 1e100;  // Pa; from here on a bond counts as unbreakable

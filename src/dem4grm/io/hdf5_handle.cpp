@@ -204,6 +204,11 @@ void write_dataset(const Handle& parent, const Label& label, std::span<const std
   write_values(parent, label, values, columns, H5T_STD_I32LE, H5T_NATIVE_INT32);
 }
 
+void write_dataset(const Handle& parent, const Label& label, std::span<const std::int64_t> values,
+                   std::size_t columns) {
+  write_values(parent, label, values, columns, H5T_STD_I64LE, H5T_NATIVE_INT64);
+}
+
 void write_dataset(const Handle& parent, const Label& label, std::span<const std::uint8_t> values,
                    std::size_t columns) {
   write_values(parent, label, values, columns, H5T_STD_U8LE, H5T_NATIVE_UINT8);
@@ -231,15 +236,66 @@ std::vector<std::size_t> dataset_shape(const Handle& parent, const std::string& 
   return {lengths.begin(), lengths.begin() + rank};
 }
 
-std::vector<double> read_dataset(const Handle& parent, const std::string& name) {
-  const std::string what = fmt::format("dataset {} cannot be read", name);
+namespace {
+
+Handle open_dataset(const Handle& parent, const std::string& name) {
+  return {H5Dopen2(parent.id(), name.c_str(), H5P_DEFAULT), H5Dclose, fmt::format("dataset {} cannot be read", name)};
+}
+
+template <class Value>
+std::vector<Value> read_values(const Handle& parent, const std::string& name, hid_t memory_type) {
   const std::vector<std::size_t> shape = dataset_shape(parent, name);
-  std::vector<double> values(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
-  const Handle dataset(H5Dopen2(parent.id(), name.c_str(), H5P_DEFAULT), H5Dclose, what);
+  std::vector<Value> values(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
+  const Handle dataset = open_dataset(parent, name);
   if (!values.empty()) {
-    check(H5Dread(dataset.id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), what);
+    check(H5Dread(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+          fmt::format("dataset {} cannot be read", name));
   }
   return values;
+}
+
+}  // namespace
+
+std::vector<double> read_dataset(const Handle& parent, const std::string& name) {
+  return read_values<double>(parent, name, H5T_NATIVE_DOUBLE);
+}
+
+std::vector<std::int64_t> read_whole_numbers(const Handle& parent, const std::string& name) {
+  return read_values<std::int64_t>(parent, name, H5T_NATIVE_INT64);
+}
+
+std::vector<std::uint8_t> read_bytes(const Handle& parent, const std::string& name) {
+  return read_values<std::uint8_t>(parent, name, H5T_NATIVE_UINT8);
+}
+
+std::string read_text(const Handle& parent, const std::string& name) {
+  const std::string what = fmt::format("dataset {} cannot be read", name);
+  const Handle dataset = open_dataset(parent, name);
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose, what);
+  if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0) throw IoError(what);
+  const std::vector<std::size_t> shape = dataset_shape(parent, name);
+  if (shape != std::vector<std::size_t>{1}) throw IoError(what);
+  std::string value(H5Tget_size(type.id()), '\0');
+  check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()), what);
+  value.resize(std::min(value.size(), value.find('\0')));
+  return value;
+}
+
+DatasetKind dataset_kind(const Handle& parent, const std::string& name) {
+  const std::string what = fmt::format("dataset {} cannot be read", name);
+  const Handle dataset = open_dataset(parent, name);
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose, what);
+  const H5T_class_t kind = H5Tget_class(type.id());
+  const std::size_t bytes = H5Tget_size(type.id());
+  if (kind == H5T_FLOAT && bytes == sizeof(double)) return DatasetKind::real;
+  if (kind == H5T_INTEGER && bytes == 1) return DatasetKind::byte;
+  if (kind == H5T_INTEGER && bytes == sizeof(std::int64_t)) return DatasetKind::whole;
+  throw IoError(what + ": it holds another kind of values");
+}
+
+void copy_group(const Handle& from, const std::string& name, const Handle& to) {
+  check(H5Ocopy(from.id(), name.c_str(), to.id(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+        fmt::format("group {} cannot be copied", name));
 }
 
 }  // namespace dem::hdf5

@@ -68,6 +68,8 @@ struct Label {
 void write_dataset(const Handle& parent, const Label& label, std::span<const double> values, std::size_t columns = 1);
 void write_dataset(const Handle& parent, const Label& label, std::span<const std::int32_t> values,
                    std::size_t columns = 1);
+void write_dataset(const Handle& parent, const Label& label, std::span<const std::int64_t> values,
+                   std::size_t columns = 1);
 void write_dataset(const Handle& parent, const Label& label, std::span<const std::uint8_t> values,
                    std::size_t columns = 1);
 /// Text of any length, one for each row.
@@ -76,5 +78,16 @@ void write_dataset(const Handle& parent, const Label& label, std::span<const std
 /// Length of each dimension.
 std::vector<std::size_t> dataset_shape(const Handle& parent, const std::string& name);
 std::vector<double> read_dataset(const Handle& parent, const std::string& name);
+std::vector<std::int64_t> read_whole_numbers(const Handle& parent, const std::string& name);
+std::vector<std::uint8_t> read_bytes(const Handle& parent, const std::string& name);
+/// The first row of a dataset of texts.
+std::string read_text(const Handle& parent, const std::string& name);
+
+/// What a dataset of numbers holds.
+enum class DatasetKind { real, whole, byte };
+DatasetKind dataset_kind(const Handle& parent, const std::string& name);
+
+/// Copies a group with all that is in it to another file.
+void copy_group(const Handle& from, const std::string& name, const Handle& to);
 
 }  // namespace dem::hdf5

@@ -55,6 +55,11 @@ JsonValue from_json(const Json& json) {
   return {};
 }
 
+/// Bytes that are no UTF-8 (a folder name may hold any) are replaced instead of thrown about.
+std::string dumped(const JsonValue& value) {
+  return std::visit(ToJson{}, value.data).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 JsonValue::JsonValue() = default;
@@ -73,10 +78,9 @@ JsonValue::JsonValue(const std::vector<std::string>& values) {
   data = std::move(list);
 }
 
-std::string json_text(const JsonObject& object) {
-  // Bytes that are no UTF-8 (a folder name may hold any) are replaced instead of thrown about.
-  return to_json(object).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string json_text(const JsonObject& object) { return dumped(object); }
+
+std::string json_text(const JsonList& list) { return dumped(list); }
 
 JsonObject parse_json(std::string_view text, const std::filesystem::path& source) {
   const Json json = Json::parse(text, nullptr, false);

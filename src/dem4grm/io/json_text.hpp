@@ -40,6 +40,8 @@ struct JsonField {
 
 /// The object as text with two spaces of indent and a final line break. Equal values give equal bytes.
 std::string json_text(const JsonObject& object);
+/// The same for a list.
+std::string json_text(const JsonList& list);
 
 /// Reads a JSON object from text. Throws IoError that names `source` when the text is none.
 JsonObject parse_json(std::string_view text, const std::filesystem::path& source);

@@ -48,6 +48,14 @@ void fill_and_close(int descriptor, const std::filesystem::path& path, std::stri
   throw_io_error(path, "cannot be written");
 }
 
+void rename_draft(const std::filesystem::path& draft, const std::filesystem::path& path) {
+  if (::rename(draft.c_str(), path.c_str()) == 0) return;
+  const int reason = errno;
+  ::unlink(draft.c_str());
+  errno = reason;
+  throw_io_error(path, "cannot be replaced");
+}
+
 }  // namespace
 
 void throw_io_error(const std::filesystem::path& path, std::string_view what) {
@@ -61,12 +69,20 @@ void replace_file(const std::filesystem::path& path, std::string_view text) {
   const int descriptor = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, k_file_mode);
   if (descriptor < 0) throw_io_error(path, "cannot be written");
   fill_and_close(descriptor, draft, text);
-  if (::rename(draft.c_str(), path.c_str()) != 0) {
-    const int reason = errno;
+  rename_draft(draft, path);
+}
+
+void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path) {
+  const int descriptor = ::open(draft.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_synced = descriptor >= 0 && sync_descriptor(descriptor);
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!is_synced) {
     ::unlink(draft.c_str());
     errno = reason;
-    throw_io_error(path, "cannot be replaced");
+    throw_io_error(path, "cannot be written");
   }
+  rename_draft(draft, path);
 }
 
 void create_file(const std::filesystem::path& path, std::string_view text) {

@@ -22,6 +22,7 @@ inline constexpr const char* k_grain = "grain.csv";
 inline constexpr const char* k_summary = "summary.json";
 inline constexpr const char* k_results = "results.h5";
 inline constexpr const char* k_specimen = "specimen.h5";
+inline constexpr const char* k_checkpoint = "checkpoint.h5";
 }  // namespace file_name
 
 enum class FolderContent {
@@ -43,7 +44,8 @@ const std::string& case_name(const TestCase& test);
 /// A folder that belongs to this process until the object goes.
 class OutputFolder {
  public:
-  /// Makes the folder, takes its lock, removes what an unfinished run left, writes case.toml and resolved.toml.
+  /// Makes the folder, takes its lock, removes what an unfinished run without a checkpoint left, writes case.toml and
+  /// resolved.toml.
   /// Throws FolderInUseError, IoError, and Error with ExitCode::usage when it holds another case.
   OutputFolder(std::filesystem::path path, const LoadedCase& loaded);
 
@@ -51,12 +53,15 @@ class OutputFolder {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// What the folder held when the lock was taken; `complete` means that nothing was touched.
   [[nodiscard]] FolderContent found() const { return found_; }
+  /// True when an unfinished run left a checkpoint; then its other files are there too.
+  [[nodiscard]] bool has_checkpoint() const { return has_checkpoint_; }
   [[nodiscard]] const std::string& lock_note() const { return lock_->note(); }
 
  private:
   std::filesystem::path path_;
   std::unique_ptr<FolderLock> lock_;
   FolderContent found_ = FolderContent::nothing;
+  bool has_checkpoint_ = false;
 };
 
 }  // namespace dem

@@ -9,6 +9,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/io/frame_writer.hpp"
 #include "dem4grm/io/hdf5_handle.hpp"
+#include "dem4grm/io/output_file.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -30,6 +31,8 @@ void add_to_file(const std::filesystem::path& path, const Addition& addition) {
   }
 }
 
+std::string frame_name(int number) { return fmt::format("{:04}", number); }
+
 std::size_t rows_of(const hdf5::Handle& frame, const std::string& group, const std::string& dataset) {
   const std::vector<std::size_t> shape = hdf5::dataset_shape(hdf5::open_group(frame, group), dataset);
   return shape.empty() ? 0 : shape.front();
@@ -49,7 +52,30 @@ StoredFrame read_frame(const hdf5::Handle& frames, const std::string& name) {
   return out;
 }
 
+/// True when a file has /meta, these frames, and nothing else.
+bool holds_just(const std::filesystem::path& path, std::span<const FrameInfo> frames) {
+  const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+  std::vector<std::string> wanted;
+  for (const FrameInfo& f : frames) wanted.push_back(frame_name(f.number));
+  return hdf5::names_in(file) == std::vector<std::string>{"frames", "meta"} &&
+         hdf5::names_in(hdf5::open_group(file, "frames")) == wanted;
+}
+
 }  // namespace
+
+ResultsFile::ResultsFile(std::filesystem::path path, const ResultsOrigin& origin, std::span<const FrameInfo> kept)
+    : path_(std::move(path)) {
+  if (holds_just(path_, kept)) return;  // a copy has the same content, but not the same bytes
+  std::filesystem::path draft = path_;
+  draft += ".tmp";
+  const ResultsFile fresh(draft, origin);
+  add_to_file(draft, [&](const hdf5::Handle& file) {
+    const hdf5::Handle old = hdf5::open_file(path_, hdf5::Access::read);
+    const hdf5::Handle from = hdf5::open_group(old, "frames"), to = hdf5::open_group(file, "frames");
+    for (const FrameInfo& f : kept) hdf5::copy_group(from, frame_name(f.number), to);
+  });
+  publish_file(draft, path_);
+}
 
 ResultsFile::ResultsFile(std::filesystem::path path, const ResultsOrigin& origin) : path_(std::move(path)) {
   hdf5::create_file(path_).close(path_.string() + ": cannot be written");
@@ -71,7 +97,7 @@ ResultsFile::ResultsFile(std::filesystem::path path, const ResultsOrigin& origin
 
 void ResultsFile::add_frame(const Simulation& state, const FrameInfo& info) {
   add_to_file(path_, [&](const hdf5::Handle& file) {
-    write_frame(hdf5::open_group(file, "frames"), fmt::format("{:04}", info.number), state, info);
+    write_frame(hdf5::open_group(file, "frames"), frame_name(info.number), state, info);
   });
 }
 

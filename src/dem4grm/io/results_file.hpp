@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,10 @@ class ResultsFile {
  public:
   /// A new file with /meta and an empty /frames; an old one is replaced. Throws IoError.
   ResultsFile(std::filesystem::path path, const ResultsOrigin& origin);
+
+  /// A file of that name reduced to /meta and the frames with these numbers, for a run that goes on. Throws IoError when
+  /// it is damaged or lacks one of them.
+  ResultsFile(std::filesystem::path path, const ResultsOrigin& origin, std::span<const FrameInfo> kept);
 
   /// Adds /frames/NNNN. Throws IoError.
   void add_frame(const Simulation& state, const FrameInfo& info);

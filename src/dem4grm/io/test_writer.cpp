@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "dem4grm/io/checkpoint_file.hpp"
 #include "dem4grm/io/output_file.hpp"
 #include "dem4grm/version.hpp"
 
@@ -27,7 +28,8 @@ RemainingTime remaining_time_of(const TestCase& test) {
   return {"compression", 0.0};
 }
 
-TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int threads, const RunLinks& links)
+TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int threads, const RunLinks& links,
+                       double past_wall_time)
     : folder_(folder),
       loaded_(loaded),
       threads_(threads),
@@ -35,8 +37,8 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
       log_(folder.file(file_name::k_log)),
       status_(folder.file(file_name::k_status), case_name(loaded.test), threads),
       remaining_(remaining_time_of(loaded.test)),
-      results_(folder.file(file_name::k_results), origin_of(loaded)),
-      is_direct_shear_(std::holds_alternative<DirectShearCase>(loaded.test)) {
+      is_direct_shear_(std::holds_alternative<DirectShearCase>(loaded.test)),
+      past_wall_time_(past_wall_time) {
   log_.info(fmt::format("dem4grm {} (commit {}, {}), host {}, {} thread{}", k_version, k_commit, k_compiler,
                         host_name(), threads, threads == 1 ? "" : "s"));
   log_.info(fmt::format("case {}", case_name(loaded.test)));
@@ -49,11 +51,13 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
     log_.warning(text);
     warnings_.push_back(text);
   }
+  // A run that goes on keeps the old file until it knows which states to keep.
+  if (!folder.has_checkpoint()) results_.emplace(folder.file(file_name::k_results), origin_of(loaded));
   status_.set_state(is_direct_shear_ ? RunState::preparing : RunState::running);
 }
 
 double TestWriter::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  return past_wall_time_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
 void TestWriter::progress(const Progress& now) {
@@ -69,10 +73,41 @@ void TestWriter::progress(const Progress& now) {
   }
   status_.set_progress(now, remaining_);
   if (links_.listener != nullptr) links_.listener->progress(now);
-  if (links_.stop_flag != nullptr && *links_.stop_flag != 0) {
+  if (must_stop() && !is_direct_shear_) {
     status_.set_state(RunState::stopping, "on request");
-    throw StoppedOnRequest("stopped on request; there is no checkpoint yet, so the same command will start anew");
+    throw StoppedOnRequest(ExitCode::interrupted,
+                           "stopped on request; this test keeps no checkpoint, the same command starts it anew");
   }
+}
+
+bool TestWriter::wants_checkpoint(bool is_new_stage) {
+  return is_new_stage || must_stop() || seconds() - last_checkpoint_ >= links_.checkpoint_interval;
+}
+
+void TestWriter::checkpoint(const StateArchive& state) {
+  const bool stops = must_stop();  // asked once: a signal may come while the file is written
+  if (stops) status_.set_state(RunState::stopping, "on request");
+  const double begin = seconds();
+  write_checkpoint(folder_.file(file_name::k_checkpoint), state, {loaded_.resolved_toml, begin, {}});
+  last_checkpoint_ = seconds();
+  log_.info(fmt::format("checkpoint, written in {:.2f} s", last_checkpoint_ - begin));
+  if (stops) {
+    throw StoppedOnRequest(ExitCode::stopped, "stopped on request; the same command goes on from the checkpoint");
+  }
+}
+
+void TestWriter::resumed(const ResumedRun& past) {
+  results_.emplace(folder_.file(file_name::k_results), origin_of(loaded_), past.frames);
+  frames_.assign(past.frames.begin(), past.frames.end());
+  start_energy_.kinetic = past.start_energy.kinetic;
+  start_energy_.contact_strain = past.start_energy.contact_strain;
+  start_energy_.bond_strain = past.start_energy.bond_strain;
+  for (const ShearRow& row : past.rows) take_row(row);
+}
+
+ResultsFile& TestWriter::results() {
+  if (!results_) results_.emplace(folder_.file(file_name::k_results), origin_of(loaded_));
+  return *results_;
 }
 
 void TestWriter::note(const std::string& text) {
@@ -86,11 +121,15 @@ void TestWriter::warning(const std::string& text) {
   if (links_.listener != nullptr) links_.listener->warning(text);
 }
 
-void TestWriter::shear_row(const ShearRow& row) {
+void TestWriter::take_row(const ShearRow& row) {
   peak_stress_ = std::max(peak_stress_, row.shear_stress);
   const double imbalance = peak_stress_ > 0.0 ? std::fabs(row.half_force_difference) / peak_stress_ : 0.0;
   last_energy_ = row.energy;
   table_->append(shear_values(row, imbalance));
+}
+
+void TestWriter::shear_row(const ShearRow& row) {
+  take_row(row);
   if (links_.listener != nullptr) links_.listener->shear_row(row);
 }
 
@@ -111,7 +150,7 @@ void TestWriter::frame(const Simulation& state, const FrameInfo& info) {
       ResultsFile(folder_.file(file_name::k_specimen), origin_of(loaded_)).add_frame(state, info);
     }
   }
-  results_.add_frame(state, info);
+  results().add_frame(state, info);
   frames_.push_back(info);
   log_.info(fmt::format("state {} at {:.3f} mm, hash {}", info.number, info.displacement * 1e3, info.state_hash));
   if (links_.listener != nullptr) links_.listener->frame(state, info);
@@ -123,14 +162,17 @@ RunFacts TestWriter::facts() const {
 
 void TestWriter::write_tables() {
   table_->sync();
-  results_.add_table(is_direct_shear_ ? "shear" : "compression", *table_);
+  // Without the file the run ended before it had anything of its own to add.
+  if (results_) results_->add_table(is_direct_shear_ ? "shear" : "compression", *table_);
 }
 
 void TestWriter::write_summary(const JsonObject& summary) {
+  std::error_code ignored;  // a checkpoint that stays behind does no harm
   replace_file(folder_.file(file_name::k_summary), json_text(summary));
   log_.info(fmt::format("finished after {:.1f} s, {} rows, state hash {}", number_in(summary, "wall_time_s"),
                         table_->rows(), text_in(summary, "state_hash")));
   status_.set_state(RunState::finished);
+  std::filesystem::remove(folder_.file(file_name::k_checkpoint), ignored);
 }
 
 JsonObject TestWriter::finish(const DirectShearResult& result) {
@@ -156,7 +198,9 @@ void TestWriter::give_up(RunState state, const std::string& cause) noexcept {
     }
   };
   attempt([&] { state == RunState::failed ? log_.error(cause) : log_.info(cause); });
-  attempt([&] { write_tables(); });
+  // A run that will go on adds its record at its own end.
+  const bool goes_on = is_direct_shear_ && state == RunState::stopped;
+  attempt([&] { goes_on ? table_->sync() : write_tables(); });
   attempt([&] { status_.set_state(state, cause); });
 }
 

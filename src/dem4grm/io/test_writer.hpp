@@ -17,15 +17,16 @@
 
 namespace dem {
 
-/// The user asked for an end (SIGINT, SIGTERM).
+/// The user asked for an end (SIGINT, SIGTERM). The code says whether there is a checkpoint to go on from.
 struct StoppedOnRequest : Error {
-  explicit StoppedOnRequest(const std::string& message) : Error(ExitCode::interrupted, message) {}
+  using Error::Error;
 };
 
 /// What a run hears from outside and tells to the outside.
 struct RunLinks {
   LabObserver* listener = nullptr;                        ///< hears everything that the writer hears; may be null
-  const volatile std::sig_atomic_t* stop_flag = nullptr;  ///< not zero: stop after the present row; may be null
+  const volatile std::sig_atomic_t* stop_flag = nullptr;  ///< not zero: stop at the next good point; may be null
+  double checkpoint_interval = 600.0;                     ///< s of wall time between two checkpoints
 };
 
 /// The forecast of a test that has not begun.
@@ -33,16 +34,21 @@ RemainingTime remaining_time_of(const TestCase& test);
 
 class TestWriter : public LabObserver {
  public:
-  /// Opens all files of the folder. Throws IoError.
-  TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int threads, const RunLinks& links);
+  /// Opens all files of the folder; `past_wall_time`: s that earlier parts of the run took. Throws IoError.
+  TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int threads, const RunLinks& links,
+             double past_wall_time = 0.0);
 
-  /// These throw IoError when a file cannot be written; progress() throws StoppedOnRequest when the flag is set.
+  /// These throw IoError when a file cannot be written; when the stop flag is set, checkpoint() throws StoppedOnRequest
+  /// after it has written, and so does progress() in a test without checkpoints.
   void progress(const Progress& now) override;
   void note(const std::string& text) override;
   void warning(const std::string& text) override;
   void shear_row(const ShearRow& row) override;
   void compression_row(const CompressionRow& row) override;
   void frame(const Simulation& state, const FrameInfo& info) override;
+  bool wants_checkpoint(bool is_new_stage) override;
+  void checkpoint(const StateArchive& state) override;
+  void resumed(const ResumedRun& past) override;
 
   /// Completes all files; summary.json comes last and marks the folder as complete. Returns what it says.
   JsonObject finish(const DirectShearResult& result);
@@ -53,6 +59,9 @@ class TestWriter : public LabObserver {
  private:
   [[nodiscard]] RunFacts facts() const;
   [[nodiscard]] double seconds() const;
+  [[nodiscard]] bool must_stop() const { return links_.stop_flag != nullptr && *links_.stop_flag != 0; }
+  ResultsFile& results();
+  void take_row(const ShearRow& row);
   void write_tables();
   void write_summary(const JsonObject& summary);
 
@@ -64,10 +73,11 @@ class TestWriter : public LabObserver {
   RunLog log_;
   StatusFile status_;
   RemainingTime remaining_;
-  ResultsFile results_;
+  std::optional<ResultsFile> results_;
   std::optional<TableFile> table_;  ///< shear.csv or grain.csv
   bool is_direct_shear_;
   bool has_shear_begun_ = false;
+  double past_wall_time_ = 0.0, last_checkpoint_ = 0.0;  ///< s
   std::string stage_;
   double peak_stress_ = 0.0;  ///< Pa, of the rows so far
   EnergyReport start_energy_, last_energy_;

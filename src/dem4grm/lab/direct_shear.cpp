@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/engine/simulation_state.hpp"
+#include "dem4grm/lab/record_state.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -55,17 +58,26 @@ class ShearStage {
     collect_frames();
   }
 
-  void run() {
-    write_frame();
+  /// From the beginning when `from` is null, else from the state in it.
+  void run(StateArchive* from) {
+    if (from == nullptr) {
+      write_frame();
+      keep(true);
+    } else {
+      from->group("shear", [&] { exchange_all(*from); });
+      observer_.resumed({rows_, written_frames_, start_energy_});
+    }
     while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
       advance();
-      if (++shear_steps_ % k_watch_interval == 0) watch();
+      const bool is_watched = ++shear_steps_ % k_watch_interval == 0;
+      if (is_watched) watch();
       if (displacement_ >= next_row_at() * (1.0 - 1e-12)) {
         finish_row();
         if (next_frame_ < frames_.size() && displacement_ >= frames_[next_frame_] - 0.5 * test_.recording.interval) {
           write_frame();
         }
       }
+      if (is_watched) keep(false);
     }
   }
 
@@ -170,8 +182,37 @@ class ShearStage {
   }
 
   void write_frame() {
-    observer_.frame(s_, {static_cast<int>(next_frame_), displacement_, s_.state_hash()});
+    written_frames_.push_back({static_cast<int>(next_frame_), displacement_, s_.state_hash()});
+    observer_.frame(s_, written_frames_.back());
     ++next_frame_;
+  }
+
+  void keep(bool is_new_stage) {
+    if (!observer_.wants_checkpoint(is_new_stage)) return;
+    StateArchive archive;
+    std::string stage = "shear";
+    archive.exchange("stage", stage);
+    exchange(archive, specimen_);
+    archive.group("shear", [&] { exchange_all(archive); });
+    observer_.checkpoint(archive);
+  }
+
+  void exchange_all(StateArchive& archive) {
+    archive.exchange("displacement", displacement_);
+    archive.exchange("start_height", start_height_);
+    archive.group("start_energy", [&] { exchange(archive, start_energy_); });
+    archive.exchange("steps", shear_steps_);
+    archive.group("sums", [&] {
+      archive.exchange("lower", sums_.lower);
+      archive.exchange("upper", sums_.upper);
+      archive.exchange("normal", sums_.normal);
+      archive.exchange("bottom_plate", sums_.bottom_plate);
+      archive.exchange("worst_normal", sums_.worst_normal);
+      archive.exchange("steps", sums_.steps);
+    });
+    exchange(archive, written_frames_);
+    next_frame_ = written_frames_.size();
+    exchange(archive, rows_);
   }
 
   const DirectShearCase& test_;
@@ -182,6 +223,7 @@ class ShearStage {
   EnergyReport start_energy_;
   std::vector<double> frames_;
   std::size_t next_frame_ = 0;
+  std::vector<FrameInfo> written_frames_;
   std::int64_t shear_steps_ = 0;
   IntervalSums sums_;
   std::vector<ShearRow> rows_;
@@ -226,8 +268,10 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
 
 }  // namespace
 
-DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer) {
-  Specimen specimen = prepare_specimen(specimen_order(test), [&](const PreparationState& state, const Simulation* s) {
+DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer, StateArchive* from) {
+  PreparationHooks hooks;
+  hooks.resumed = from;
+  hooks.watch = [&](const PreparationState& state, const std::function<void(StateArchive&)>& save) {
     Progress p;
     p.stage = state.stage;
     p.fraction = state.fraction;
@@ -235,9 +279,15 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
     p.void_ratio = state.rest.void_ratio;
     p.unbalanced_ratio = state.rest.unbalanced_ratio;
     p.steps = state.rest.steps;
-    p.time_step = s != nullptr ? s->dt : 0.0;
-    observer.progress(p);
-  });
+    p.time_step = state.time_step;
+    if (!state.is_new_stage) observer.progress(p);  // a stage that has not begun has nothing to tell
+    if (!observer.wants_checkpoint(state.is_new_stage)) return;
+    StateArchive archive;
+    save(archive);
+    observer.checkpoint(archive);
+  };
+  const bool is_in_shear = from != nullptr && from->has_group("shear");
+  Specimen specimen = prepare_specimen(specimen_order(test), hooks);
   const double miss = specimen.report.height / test.box.height - 1.0;
   if (std::fabs(miss) > 0.05) {
     observer.warning(fmt::format(
@@ -246,7 +296,7 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
         specimen.report.height * 1e3, miss * 100.0, test.box.height * 1e3, specimen.report.void_ratio_before_shear));
   }
   ShearStage stage(test, specimen, observer);
-  stage.run();
+  stage.run(is_in_shear ? from : nullptr);
 
   DirectShearResult out;
   out.specimen = specimen.report;

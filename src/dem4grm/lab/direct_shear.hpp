@@ -29,9 +29,10 @@ struct DirectShearResult {
   std::string state_hash;
 };
 
-/// Runs the whole test. The observer hears of everything as it happens and may throw to stop. Throws InputError and
-/// PhysicsError; a physics error names the worst offender.
-DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer);
+/// Runs the whole test, from the beginning or from what an observer's checkpoint() was given. The observer hears of
+/// everything as it happens and may throw to stop. Throws InputError and PhysicsError; a physics error names the worst
+/// offender; IoError when the state to go on from does not fit the case.
+DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer, StateArchive* from = nullptr);
 
 /// The scene of a case without grains and walls.
 Scene materials_of(const DirectShearCase& test);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 
+#include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/engine/simulation.hpp"
 
 namespace dem {
@@ -57,6 +59,13 @@ struct FrameInfo {
   std::string state_hash;
 };
 
+/// What a test that goes on from a checkpoint has behind it.
+struct ResumedRun {
+  std::span<const ShearRow> rows;
+  std::span<const FrameInfo> frames;
+  EnergyReport start_energy;  ///< J, when shear began
+};
+
 class LabObserver {
  public:
   LabObserver() = default;
@@ -70,6 +79,13 @@ class LabObserver {
   virtual void shear_row(const ShearRow& /*row*/) {}
   virtual void compression_row(const CompressionRow& /*row*/) {}
   virtual void frame(const Simulation& /*state*/, const FrameInfo& /*info*/) {}
+
+  /// Asked at every point from which a test could go on; is_new_stage: a stage has just ended.
+  virtual bool wants_checkpoint(bool /*is_new_stage*/) { return false; }
+  /// All that is needed to go on from here. May throw to stop the test.
+  virtual void checkpoint(const StateArchive& /*state*/) {}
+  /// Once, before anything else, when shear goes on from a checkpoint.
+  virtual void resumed(const ResumedRun& /*past*/) {}
 };
 
 }  // namespace dem

@@ -4,11 +4,11 @@
 // Conventions, as everywhere in the engine: the normal n points from body i to body j; forces are those on i (j gets
 // the opposite); the overlap is positive in contact; v is the velocity of j relative to i at the contact point.
 //
-//   F_n = h d^(3/2),   h = (4/3) E* sqrt(R*),   R* = Ri Rj / (Ri + Rj)   (against a plane R* = Ri)          Hertz
-//   (1882) k_n = (3/2) h sqrt(d)                                                 tangent normal stiffness, N/m k_s = 2
-//   (1-nu) / (2-nu) k_n                                           no-slip shear stiffness, Mindlin (1949) F_s += k_s
-//   v_s dt, then cut to friction * F_n                         Coulomb dashpots: 2 b_n sqrt(m k_n) v_n and 2 b_s sqrt(m
-//   k_s) v_s with the tangent stiffnesses, m = m_i m_j / (m_i + m_j)
+//   F_n = h d^(3/2),   h = (4/3) E* sqrt(R*),   R* = Ri Rj / (Ri + Rj)   (against a plane R* = Ri)   Hertz (1882)
+//   k_n = (3/2) h sqrt(d)                 tangent normal stiffness, N/m
+//   k_s = 2 (1-nu) / (2-nu) k_n           no-slip shear stiffness, Mindlin (1949)
+//   F_s += k_s v_s dt, then cut to friction * F_n                                                       Coulomb
+//   dashpots: 2 b_n sqrt(m k_n) v_n and 2 b_s sqrt(m k_s) v_s with the tangent stiffnesses, m = m_i m_j / (m_i + m_j)
 //
 //   d overlap, m;  E*, nu of the contact from laws/mixing.hpp;  b fraction of critical damping;  limit d = 0: no force.
 // Unloading: by rule 0 the shear force is kept when the normal force falls (PFC's default, hz_mode 0; elastic shear

@@ -16,13 +16,12 @@
 //
 // Two forms of shear force and moment:
 //  * history-free: F_s = k_s L [n - (t_i + t_j)/2] perpendicular to n, with t the bond's first direction carried by
-//  each
-//    ball; M = k_b theta + (k_t - k_b) n (theta.n), theta = 2 vec(q_j q_i*) the turn of j against i. Exactly objective,
-//    returns on every closed path; valid for relative turns below pi; cannot break.
+//    each ball; M = k_b theta + (k_t - k_b) n (theta.n), theta = 2 vec(q_j q_i*) the turn of j against i. Exactly
+//    objective, returns on every closed path; valid for relative turns below pi; cannot break.
 //  * incremental: F_s += k_s v_s dt and M += k_b, k_t times the relative spin dt, both carried with the bond by exact
 //    rotations. Can break: sigma = F_n/A + |M_b| R/I against the tensile strength, tau = |F_s|/A + |M_t| R/J against
 //    shear.
-// At small strain both are the same law; docs/decisions/0004-bond-forms.md has what was measured.
+// At small strain both are the same law; docs/decisions/0004-rubber-grain.md has what was measured.
 #pragma once
 
 #include <cmath>
@@ -36,17 +35,19 @@ namespace dem {
 
 /// Constants of one bond; SI units.
 struct BondParameters {
-  double rest_length = 0.0;         ///< m
-  double normal_stiffness = 0.0;    ///< k_n, N/m
-  double shear_stiffness = 0.0;     ///< k_s, N/m
-  double bending_stiffness = 0.0;   ///< k_b, N m/rad
-  double twisting_stiffness = 0.0;  ///< k_t, N m/rad
-  double linear_stiffness = 0.0;    ///< k_l, N/m; 0 when the linear spring is off
-  double dashpot = 0.0;             ///< N s/m
-  double area = 0.0;                ///< A, m2
-  double bond_radius = 0.0;         ///< R, m
-  double tensile_strength = 0.0;    ///< Pa
-  double shear_strength = 0.0;      ///< Pa
+  double rest_length = 0.0;             ///< m
+  double normal_stiffness = 0.0;        ///< k_n, N/m
+  double shear_stiffness = 0.0;         ///< k_s, N/m
+  double bending_stiffness = 0.0;       ///< k_b, N m/rad
+  double twisting_stiffness = 0.0;      ///< k_t, N m/rad
+  double linear_stiffness = 0.0;        ///< k_l, N/m; 0 when the linear spring is off
+  double linear_shear_stiffness = 0.0;  ///< k_l / kappa, N/m; acts only when spring_friction > 0
+  double spring_friction = 0.0;         ///< Coulomb coefficient of the linear spring
+  double dashpot = 0.0;                 ///< N s/m
+  double area = 0.0;                    ///< A, m2
+  double bond_radius = 0.0;             ///< R, m
+  double tensile_strength = 0.0;        ///< Pa
+  double shear_strength = 0.0;          ///< Pa
 };
 
 /// Inputs of bond_parameters in the words of the case file.
@@ -61,6 +62,7 @@ struct BondDescription {
   double tensile_strength = 0.0;
   double shear_strength = 0.0;
   bool linear_spring = true;
+  double spring_friction = 0.0;
 };
 
 inline BondParameters bond_parameters(const BondDescription& b) {
@@ -76,6 +78,8 @@ inline BondParameters bond_parameters(const BondDescription& b) {
   p.twisting_stiffness = b.moment_scale * per_length / b.stiffness_ratio * 2.0 * second_moment;
   const double linear_group = per_length * std::numbers::pi * b.ball_radius * b.ball_radius;
   p.linear_stiffness = b.linear_spring ? linear_group : 0.0;
+  p.linear_shear_stiffness = p.linear_stiffness / b.stiffness_ratio;
+  p.spring_friction = b.spring_friction;
   p.dashpot = 2.0 * b.damping_ratio * std::sqrt(0.5 * b.ball_mass * linear_group);
   p.tensile_strength = b.tensile_strength;
   p.shear_strength = b.shear_strength;
@@ -95,6 +99,27 @@ DEM_INLINE double bond_normal_force(const BondParameters& p, double length, doub
   const double stretch = length - p.rest_length;
   const double squeezed = stretch < 0.0 ? stretch : 0.0;
   return p.normal_stiffness * stretch + p.linear_stiffness * squeezed + p.dashpot * separation_speed;
+}
+
+/// Shear force of the linear spring, N, on ball i, and what it lost in this step, J.
+struct SpringShear {
+  Vec3 shear;
+  double slip_work = 0.0;
+};
+
+/// formula:  F_s += (k_l/kappa) v_s dt, then cut to friction * k_l d;   d = 2r - L the overlap, no force when apart
+/// An option beside the bond (spring_friction > 0); with friction 0 the spring only pushes. Source: linear group of PFC.
+DEM_INLINE SpringShear linear_spring_shear(const BondParameters& p, const HertzMotion& m, double dt) {
+  const Vec3 tried = m.carried_shear + m.shear_velocity * (p.linear_shear_stiffness * dt);
+  const double limit = p.spring_friction * p.linear_stiffness * m.overlap;
+  const double size = std::sqrt(dot(tried, tried));
+  if (size <= limit) return {tried, 0.0};
+  SpringShear out;
+  out.shear = tried * (limit / size);
+  const Vec3 slip = m.shear_velocity * dt - (out.shear - m.carried_shear) * (1.0 / p.linear_shear_stiffness);
+  const double work = 0.5 * dot(out.shear + m.carried_shear, slip);
+  out.slip_work = work > 0.0 ? work : 0.0;
+  return out;
 }
 
 /// History-free form.

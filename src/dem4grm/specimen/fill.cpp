@@ -160,25 +160,38 @@ int grow_to(Simulation& s, double scale, double longest_step, const FillSettings
   return steps;
 }
 
-void relax(Simulation& s, double longest_step, const FillSettings& settings, Fill& fill) {
-  double seen = worst_overlap(s).largest;
-  for (int done = 0; seen > settings.overlap_goal; done += settings.steps_per_reset) {
-    if (done >= settings.most_relaxation_steps) {
-      throw PhysicsError(fmt::format(
-          "the random fill did not come to rest: the largest overlap is still {:.4f} of a radius after {} steps "
-          "(goal {:.4f}). Choose a larger generation_void_ratio",
-          seen, done, settings.overlap_goal));
-    }
-    push_apart(s, longest_step, settings.steps_per_reset);
-    fill.steps += settings.steps_per_reset;
-    seen = worst_overlap(s).largest;
+/// One round of relaxation at full size. Throws PhysicsError when there were too many.
+void relax(Simulation& s, double longest_step, const FillSettings& settings, FillState& state) {
+  const double seen = worst_overlap(s).largest;
+  if (!(seen > settings.overlap_goal)) {
+    state.is_relaxed = true;
+    return;
   }
+  if (state.relaxation_steps >= settings.most_relaxation_steps) {
+    throw PhysicsError(fmt::format(
+        "the random fill did not come to rest: the largest overlap is still {:.4f} of a radius after {} steps "
+        "(goal {:.4f}). Choose a larger generation_void_ratio",
+        seen, state.relaxation_steps, settings.overlap_goal));
+  }
+  push_apart(s, longest_step, settings.steps_per_reset);
+  state.relaxation_steps += settings.steps_per_reset;
+  state.steps += settings.steps_per_reset;
+}
+
+/// The grains at their first size, at random and apart; returns that size over the full one.
+double place_small(Scene& scene, const Vec3& size, const FillSettings& settings) {
+  double scale = settings.start_scale;
+  while (!insert(scene, size, scale, settings.seed)) {
+    scale *= 0.9;
+    if (scale < 0.1) throw PhysicsError("the grains do not fit the box even at a tenth of their size");
+  }
+  return scale;
 }
 
 }  // namespace
 
 Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& materials, const FillSettings& settings,
-               const FillProgress& progress) {
+               const FillHooks& hooks) {
   Fill fill;
   fill.height = grains.solid_volume() * (1.0 + settings.void_ratio) / (box.length * box.width);
   if (fill.height >= box.upper_height) {
@@ -188,12 +201,7 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   }
   Scene scene = clump_scene(grains, materials);
   scene.wall_list = ShearBox(box, fill.height).walls();
-  const Vec3 size{box.length, box.width, fill.height};
-  double scale = settings.start_scale;
-  while (!insert(scene, size, scale, settings.seed)) {
-    scale *= 0.9;
-    if (scale < 0.1) throw PhysicsError("the grains do not fit the box even at a tenth of their size");
-  }
+  const double scale = place_small(scene, {box.length, box.width, fill.height}, settings);
   Simulation s(scene);
   s.skin *= k_growth_skin;
   FrictionTable friction;
@@ -201,11 +209,19 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   s.set_friction(friction);
   const double longest = rounded_down_to_nanosecond(0.8 * expected_clump_limit(s, k_growth_stress).seconds);
   const int growths = std::max(1, static_cast<int>(std::ceil((1.0 - scale) / settings.growth)));
-  for (int k = 1; k <= growths; ++k) {
-    fill.steps += grow_to(s, scale + (1.0 - scale) * k / growths, longest, settings);
-    if (progress) progress(static_cast<double>(k) / (growths + 1), fill.steps);
+  FillState state;
+  if (hooks.restore) hooks.restore(state, s);
+  while (!state.is_relaxed) {
+    if (state.growth_steps < growths) {
+      ++state.growth_steps;
+      state.steps += grow_to(s, scale + (1.0 - scale) * state.growth_steps / growths, longest, settings);
+    } else {
+      relax(s, longest, settings, state);
+    }
+    const double share = state.is_relaxed ? 1.0 : static_cast<double>(state.growth_steps) / (growths + 1);
+    if (hooks.between) hooks.between(share, state, s);
   }
-  relax(s, longest, settings, fill);
+  fill.steps = state.steps;
   const OverlapReport overlap = worst_overlap(s);
   fill.largest_overlap = overlap.largest;
   fill.caught = overlap.caught;
@@ -213,7 +229,6 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   for (const Clump& c : s.clumps.clumps) {
     (c.material == k_rubber ? fill.rubber : fill.gravel).push_back({c.position, c.orientation});
   }
-  if (progress) progress(1.0, fill.steps);
   return fill;
 }
 

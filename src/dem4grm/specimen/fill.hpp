@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dem4grm/engine/scene.hpp"
+#include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/specimen/grain_list.hpp"
 #include "dem4grm/walls/box_settings.hpp"
 
@@ -44,12 +45,25 @@ struct Fill {
   int steps = 0;
 };
 
-/// Share done, 0 to 1, and time steps so far; called now and then. May throw to stop.
-using FillProgress = std::function<void(double share, std::int64_t steps)>;
+/// Where a fill stands between two of its parts; with the simulation all that is needed to go on.
+struct FillState {
+  int growth_steps = 0;      ///< done
+  int relaxation_steps = 0;  ///< time steps since the grains have their full size
+  int steps = 0;             ///< time steps in all
+  bool is_relaxed = false;
+};
+
+/// What a caller may do while a fill is made; each may be empty.
+struct FillHooks {
+  /// Called between two parts with the share done, 0 to 1. May throw to stop.
+  std::function<void(double share, FillState& state, Simulation& s)> between;
+  /// Called once before the first part; loads an earlier state and returns true, or returns false.
+  std::function<bool(FillState& state, Simulation& s)> restore;
+};
 
 /// Makes the fill. materials: a scene whose materials, contact and bond settings are used. Throws PhysicsError when the
 /// grains do not fit the box or do not come to rest.
 Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& materials, const FillSettings& settings,
-               const FillProgress& progress);
+               const FillHooks& hooks);
 
 }  // namespace dem

@@ -36,11 +36,10 @@ std::string unmet(const RestState& now, const PlateLoad& load, const Equilibrium
 
 }  // namespace
 
-RestState bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumSettings& settings,
-                        const std::function<void(const RestState&)>& watch) {
+void bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumSettings& settings, RestState& now,
+                   const std::function<void()>& watch) {
   s.servo = {load.wall, load.stress * load.area, load.gain, load.speed_cap};
   const auto plate = static_cast<std::size_t>(load.wall);
-  RestState now;
   while (now.held < settings.hold_steps) {
     const double height = s.walls[plate].corner.z, start = s.time;
     for (int k = 0; k < k_rest_interval; ++k) s.step();
@@ -50,15 +49,14 @@ RestState bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumS
     now.unbalanced_ratio = balance(s).ratio();
     now.void_ratio = plate_void_ratio(s, load);
     now.held = unmet(now, load, settings).empty() ? now.held + k_rest_interval : 0;
-    watch(now);
     if (now.steps >= settings.most_steps && now.held < settings.hold_steps) {
       throw PhysicsError(
           fmt::format("the specimen did not come to rest in {} steps:{} raise equilibrium.most_steps or "
                       "loosen the criteria",
                       now.steps, unmet(now, load, settings)));
     }
+    watch();
   }
-  return now;
 }
 
 }  // namespace dem

@@ -38,9 +38,10 @@ double plate_void_ratio(const Simulation& s, const PlateLoad& load);
 /// Steps between two looks at the criteria and at the watchdog.
 inline constexpr int k_rest_interval = 100;
 
-/// Runs until every criterion of the settings has held for hold_steps. `watch` is called every k_rest_interval steps
-/// and may throw. Throws PhysicsError after most_steps, with the criterion that was not met.
-RestState bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumSettings& settings,
-                        const std::function<void(const RestState&)>& watch);
+/// Runs until every criterion of the settings has held for hold_steps, from `now` on (a fresh one, or where an earlier
+/// call was left). `watch` is called every k_rest_interval steps, when `now` and the simulation are all that is needed to
+/// go on, and may throw. Throws PhysicsError after most_steps, with the criterion that was not met.
+void bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumSettings& settings, RestState& now,
+                   const std::function<void()>& watch);
 
 }  // namespace dem

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/engine/simulation_state.hpp"
 #include "dem4grm/grains/rubber_size.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/specimen/void_ratio_defaults.hpp"
@@ -44,80 +45,204 @@ Scene scene_of(const SpecimenOrder& order, const GrainList& grains, const Fill& 
   return scene;
 }
 
-Fill fill_box(const SpecimenOrder& order, const GrainList& grains, double void_ratio,
-              const std::function<void(const PreparationState&, const Simulation*)>& watch) {
-  FillSettings settings;
-  settings.void_ratio = void_ratio;
-  settings.friction = order.specimen.generation_friction;
-  settings.seed = order.seed;
-  return make_fill(grains, order.box, order.materials, settings, [&](double share, std::int64_t steps) {
-    PreparationState now{"fill", share, {}};
-    now.rest.steps = steps;
-    watch(now, nullptr);
-  });
-}
-
 FrictionTable preparation_friction(double friction) {
   FrictionTable t;  // plates are smooth during preparation
   for (auto& row : t.between_grains) row.fill(friction);
   return t;
 }
 
+void exchange(StateArchive& archive, SpecimenReport& r) {
+  archive.exchange("void_ratio_generated", r.void_ratio_generated);
+  archive.exchange("void_ratio_prepared", r.void_ratio_prepared);
+  archive.exchange("void_ratio_before_shear", r.void_ratio_before_shear);
+  archive.exchange("height", r.height);
+  archive.exchange("alignment_generated", r.alignment_generated);
+  archive.exchange("alignment_before_shear", r.alignment_before_shear);
+  archive.exchange("fill_overlap", r.fill_overlap);
+  archive.exchange("caught", r.caught);
+  archive.exchange("time_step_limit", r.time_step.seconds);
+  archive.exchange("time_step_limited_by", r.time_step.limited_by);
+  archive.exchange("fill_steps", r.fill_steps);
+  archive.exchange("compression_steps", r.compression_steps);
+  archive.exchange("friction_steps", r.friction_steps);
+}
+
+void exchange(StateArchive& archive, RestState& r) {
+  archive.exchange("steps", r.steps);
+  archive.exchange("held", r.held);
+  archive.exchange("stress", r.stress);
+  archive.exchange("plate_speed", r.plate_speed);
+  archive.exchange("unbalanced_ratio", r.unbalanced_ratio);
+  archive.exchange("void_ratio", r.void_ratio);
+}
+
+void exchange(StateArchive& archive, FillState& f) {
+  archive.exchange("growth_steps", f.growth_steps);
+  archive.exchange("relaxation_steps", f.relaxation_steps);
+  archive.exchange("steps", f.steps);
+}
+
+/// The stages of a preparation in order; each begins where the one before or a saved state left it.
+class Preparation {
+ public:
+  Preparation(const SpecimenOrder& order, const PreparationHooks& hooks) : order_(order), hooks_(hooks) {
+    out_.grains =
+        draw_grains(order.specimen, order.box, order.materials.rubber.density, order.solid_density, order.seed);
+    describe(out_.grains, order, out_.report);
+    out_.report.void_ratio_generated =
+        order.specimen.generation_void_ratio.value_or(laboratory_void_ratio(order.specimen.rubber_content));
+    out_.load = {ShearBox::k_top_plate, order.box.length * order.box.width,
+                 order.normal_stress,   order.specimen.approach_speed,
+                 order.servo.gain,      out_.grains.solid_volume()};
+    out_.bounds = {{-order.box.wing, 0.0, 0.0},
+                   {order.box.length + order.box.wing, order.box.width, order.box.upper_height}};
+  }
+
+  Specimen run() {
+    if (hooks_.resumed != nullptr) {
+      hooks_.resumed->exchange("stage", stage_);
+      if (stage_ != k_fill) load();
+    }
+    if (stage_ == k_fill) begin_compression(fill());
+    if (stage_ == k_compression) {
+      rest();
+      begin_final_friction();
+    }
+    if (stage_ == k_final_friction) {
+      rest();
+      finish();
+    }
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr const char* k_fill = "fill";
+  static constexpr const char* k_compression = "compression";
+  static constexpr const char* k_final_friction = "final friction";
+
+  Fill fill() {
+    FillSettings settings;
+    settings.void_ratio = out_.report.void_ratio_generated;
+    settings.friction = order_.specimen.generation_friction;
+    settings.seed = order_.seed;
+    FillHooks hooks;
+    hooks.restore = [&](FillState& state, Simulation& s) {
+      if (hooks_.resumed == nullptr) return false;
+      exchange_fill(*hooks_.resumed, state, s);
+      return true;
+    };
+    hooks.between = [&](double share, FillState& state, Simulation& s) {
+      if (!hooks_.watch || state.is_relaxed) return;
+      PreparationState now{k_fill, share, {}, 0.0, false};
+      now.rest.steps = state.steps;
+      hooks_.watch(now, [&](StateArchive& archive) {
+        archive.exchange("stage", stage_);
+        exchange_fill(archive, state, s);
+      });
+    };
+    return make_fill(out_.grains, order_.box, order_.materials, settings, hooks);
+  }
+
+  static void exchange_fill(StateArchive& archive, FillState& state, Simulation& s) {
+    archive.group("fill", [&] {
+      exchange(archive, state);
+      archive.group("simulation", [&] { exchange(archive, s); });
+    });
+  }
+
+  void begin_compression(const Fill& fill) {
+    out_.report.fill_steps = fill.steps;
+    out_.report.alignment_generated = fill.alignment;
+    out_.report.fill_overlap = fill.largest_overlap;
+    out_.report.caught = fill.caught;
+    if (fill.caught > 0) {
+      throw PhysicsError(
+          fmt::format("the random fill caught {} ball centres inside other grains; choose another seed or a "
+                      "larger generation_void_ratio",
+                      fill.caught));
+    }
+    out_.simulation = std::make_unique<Simulation>(scene_of(order_, out_.grains, fill));
+    Simulation& s = *out_.simulation;
+    out_.report.time_step = choose_time_step(s, order_.normal_stress);
+    s.set_time_step(out_.report.time_step.seconds);
+    s.set_friction(preparation_friction(order_.specimen.preparation_friction));
+    begin(k_compression);
+  }
+
+  void begin_final_friction() {
+    out_.report.void_ratio_prepared = rest_.void_ratio;
+    out_.report.compression_steps = rest_.steps;
+    Simulation& s = *out_.simulation;
+    for (const int plate : {ShearBox::k_bottom_plate, ShearBox::k_top_plate}) {
+      s.walls[static_cast<std::size_t>(plate)].friction = order_.materials.walls.friction;
+    }
+    s.set_friction(s.material_friction());
+    begin(k_final_friction);
+  }
+
+  void finish() {
+    const Simulation& s = *out_.simulation;
+    out_.report.void_ratio_before_shear = rest_.void_ratio;
+    out_.report.friction_steps = rest_.steps;
+    out_.report.height = s.walls[ShearBox::k_top_plate].corner.z;
+    out_.report.alignment_before_shear = rubber_alignment(s);
+  }
+
+  void begin(const char* stage) {
+    stage_ = stage;
+    rest_ = {};
+    watch(true);
+  }
+
+  void rest() {
+    Simulation& s = *out_.simulation;
+    bring_to_rest(s, out_.load, order_.equilibrium, rest_, [&] {
+      if (rest_.steps % (5 * k_rest_interval) == 0) {
+        const std::string trouble = find_trouble(s, out_.bounds, k_overlap_limit);
+        if (!trouble.empty()) throw PhysicsError(fmt::format("{} (stage {}, step {})", trouble, stage_, rest_.steps));
+      }
+      watch(false);
+    });
+  }
+
+  void watch(bool is_new_stage) {
+    if (!hooks_.watch) return;
+    hooks_.watch({stage_, -1.0, rest_, out_.simulation->time_step(), is_new_stage}, [&](StateArchive& archive) {
+      archive.exchange("stage", stage_);
+      exchange(archive, out_);
+      archive.group("rest", [&] { exchange(archive, rest_); });
+    });
+  }
+
+  /// A specimen of the right make, with every grain still at the origin, then its state.
+  void load() {
+    Fill nowhere;
+    nowhere.gravel.resize(out_.grains.gravel.size());
+    nowhere.rubber.resize(static_cast<std::size_t>(out_.grains.rubber_count));
+    nowhere.height = order_.box.height;
+    out_.simulation = std::make_unique<Simulation>(scene_of(order_, out_.grains, nowhere));
+    exchange(*hooks_.resumed, out_);
+    if (hooks_.resumed->has_group("rest")) {
+      hooks_.resumed->group("rest", [&] { exchange(*hooks_.resumed, rest_); });
+    }
+  }
+
+  const SpecimenOrder& order_;
+  const PreparationHooks& hooks_;
+  Specimen out_;
+  std::string stage_ = k_fill;
+  RestState rest_;
+};
+
 }  // namespace
 
-Specimen prepare_specimen(const SpecimenOrder& order,
-                          const std::function<void(const PreparationState&, const Simulation*)>& watch) {
-  Specimen out;
-  out.grains = draw_grains(order.specimen, order.box, order.materials.rubber.density, order.solid_density, order.seed);
-  describe(out.grains, order, out.report);
-  const double vrc = order.specimen.rubber_content;
-  out.report.void_ratio_generated = order.specimen.generation_void_ratio.value_or(laboratory_void_ratio(vrc));
-  const Fill fill = fill_box(order, out.grains, out.report.void_ratio_generated, watch);
-  out.report.fill_steps = fill.steps;
-  out.report.alignment_generated = fill.alignment;
-  out.report.fill_overlap = fill.largest_overlap;
-  out.report.caught = fill.caught;
-  if (fill.caught > 0) {
-    throw PhysicsError(
-        fmt::format("the random fill caught {} ball centres inside other grains; choose another seed or a "
-                    "larger generation_void_ratio",
-                    fill.caught));
-  }
+void exchange(StateArchive& archive, Specimen& specimen) {
+  archive.group("report", [&] { exchange(archive, specimen.report); });
+  archive.group("simulation", [&] { exchange(archive, *specimen.simulation); });
+}
 
-  out.simulation = std::make_unique<Simulation>(scene_of(order, out.grains, fill));
-  Simulation& s = *out.simulation;
-  out.report.time_step = choose_time_step(s, order.normal_stress);
-  s.set_time_step(out.report.time_step.seconds);
-  const double area = order.box.length * order.box.width;
-  out.load = {ShearBox::k_top_plate,    area, order.normal_stress, order.specimen.approach_speed, order.servo.gain,
-              out.grains.solid_volume()};
-  out.bounds = {{-order.box.wing, 0.0, 0.0},
-                {order.box.length + order.box.wing, order.box.width, order.box.upper_height}};
-  const auto look = [&](const char* stage) {
-    return [&, stage](const RestState& now) {
-      if (now.steps % (5 * k_rest_interval) == 0) {
-        const std::string trouble = find_trouble(s, out.bounds, k_overlap_limit);
-        if (!trouble.empty()) throw PhysicsError(fmt::format("{} (stage {}, step {})", trouble, stage, now.steps));
-      }
-      watch({stage, -1.0, now}, &s);
-    };
-  };
-
-  s.set_friction(preparation_friction(order.specimen.preparation_friction));
-  RestState rest = bring_to_rest(s, out.load, order.equilibrium, look("compression"));
-  out.report.void_ratio_prepared = rest.void_ratio;
-  out.report.compression_steps = rest.steps;
-
-  for (const int plate : {ShearBox::k_bottom_plate, ShearBox::k_top_plate}) {
-    s.walls[static_cast<std::size_t>(plate)].friction = order.materials.walls.friction;
-  }
-  s.set_friction(s.material_friction());
-  rest = bring_to_rest(s, out.load, order.equilibrium, look("final friction"));
-  out.report.void_ratio_before_shear = rest.void_ratio;
-  out.report.friction_steps = rest.steps;
-  out.report.height = s.walls[ShearBox::k_top_plate].corner.z;
-  out.report.alignment_before_shear = rubber_alignment(s);
-  return out;
+Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& hooks) {
+  return Preparation(order, hooks).run();
 }
 
 }  // namespace dem

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/specimen/fill.hpp"
@@ -56,15 +57,27 @@ struct Specimen {
 
 /// Where a preparation stands.
 struct PreparationState {
-  std::string stage;     ///< "fill", "compression", "final friction"
-  double fraction = -1;  ///< of the fill; below 0 when the end cannot be foreseen
-  RestState rest;        ///< of the stages after the fill
+  std::string stage;          ///< "fill", "compression", "final friction"
+  double fraction = -1;       ///< of the fill; below 0 when the end cannot be foreseen
+  RestState rest;             ///< of the stages after the fill
+  double time_step = 0.0;     ///< s; 0 during the fill, where it changes
+  bool is_new_stage = false;  ///< a stage has just been finished, the next one not begun
 };
 
-/// Prepares a specimen. `watch` is called every few hundred steps, with the simulation once there is one, and may throw
-/// to stop. Throws InputError for grains that cannot be drawn, PhysicsError when a stage fails.
-Specimen prepare_specimen(const SpecimenOrder& order,
-                          const std::function<void(const PreparationState&, const Simulation*)>& watch);
+/// What a caller may do while a specimen is made.
+struct PreparationHooks {
+  /// Called every few hundred steps; `save` writes all that is needed to go on from here. May throw to stop.
+  std::function<void(const PreparationState& now, const std::function<void(StateArchive&)>& save)> watch;
+  /// What `save` wrote earlier, or null to begin at the beginning.
+  StateArchive* resumed = nullptr;
+};
+
+/// Prepares a specimen. Throws InputError for grains that cannot be drawn, PhysicsError when a stage fails, IoError when
+/// the state to go on from does not fit the order.
+Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& hooks);
+
+/// Saves or loads a finished specimen; loading is left to prepare_specimen, which knows how to build one.
+void exchange(StateArchive& archive, Specimen& specimen);
 
 /// Largest overlap over the smaller radius beyond which a run is stopped as broken.
 inline constexpr double k_overlap_limit = 1.2;

@@ -157,6 +157,10 @@ TEST(CaseErrors, RulesBetweenKeys) {
             "6:7: error: box.gap = 3.5 mm lets the smallest grains (3.5 mm) through");
   EXPECT_EQ(mistake("rubber.bond", "tensile_strength = \"1 MPa\""),
             "9:20: error: rubber.bond.tensile_strength = 1 MPa needs rubber.bond.form = \"incremental\"");
+  EXPECT_EQ(mistake("rubber.bond", "hertz_contact = true\nspring_friction = 0.3"),
+            "9:17: error: rubber.bond.hertz_contact = true does not go with rubber.bond.spring_friction above 0");
+  EXPECT_EQ(mistake("rubber.bond", "spring_friction = 0.3\nlinear_spring = false"),
+            "9:19: error: rubber.bond.spring_friction needs rubber.bond.linear_spring = true");
   EXPECT_EQ(mistake("rubber.bond", "moment_scale = 0.05"),
             "9:16: error: rubber.bond.moment_scale = 0.05 is below 0.1 with rubber.bond.form = \"history_free\"");
   EXPECT_NO_THROW(parse_case(with("rubber.bond", "moment_scale = 0.1"), "case.toml"));

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/io/checkpoint_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/io/hdf5_handle.hpp"
+#include "dem4grm/io/output_file.hpp"
+#include "dem4grm/version.hpp"
+
+namespace dem {
+namespace {
+
+constexpr std::int64_t k_format = 1;  // raised with every change of what is saved
+
+/// Errors of the library name the object; the user needs the file.
+template <class Work>
+auto naming_file(const std::filesystem::path& path, const char* hint, const Work& work) {
+  try {
+    return work();
+  } catch (const IoError& e) {
+    const std::string shown = path.string();
+    throw IoError(std::string_view(e.what()).starts_with(shown) ? fmt::format("{}{}", e.what(), hint)
+                                                                : fmt::format("{}: {}{}", shown, e.what(), hint));
+  }
+}
+
+StateData read_entry(const hdf5::Handle& group, const std::string& name) {
+  switch (hdf5::dataset_kind(group, name)) {
+    case hdf5::DatasetKind::real:
+      return hdf5::read_dataset(group, name);
+    case hdf5::DatasetKind::whole:
+      return hdf5::read_whole_numbers(group, name);
+    case hdf5::DatasetKind::byte:
+      return hdf5::read_bytes(group, name);
+  }
+  return {};
+}
+
+}  // namespace
+
+void write_checkpoint(const std::filesystem::path& path, const StateArchive& state, const CheckpointFacts& facts) {
+  std::filesystem::path draft = path;
+  draft += ".tmp";
+  naming_file(path, "", [&] {
+    hdf5::Handle file = hdf5::create_file(draft);
+    {
+      const hdf5::Handle meta = hdf5::create_group(file, "meta");
+      hdf5::write_attribute(meta, "program", std::string("dem4grm checkpoint"));
+      hdf5::write_attribute(meta, "format", k_format);
+      hdf5::write_attribute(meta, "version", std::string(k_version));
+      hdf5::write_attribute(meta, "commit", std::string(k_commit));
+      hdf5::write_attribute(meta, "wall_time", facts.wall_time);
+      const std::array<std::string, 1> resolved{facts.resolved_toml};
+      hdf5::write_dataset(meta, {"resolved_toml", "1", "every key of the case with its value"}, resolved);
+      const hdf5::Handle group = hdf5::create_group(file, "state");
+      for (const StateEntry& entry : state.entries()) {
+        std::visit([&](const auto& values) { hdf5::write_dataset(group, {entry.name, "SI", ""}, values); }, entry.data);
+      }
+    }
+    file.close("the file cannot be closed");
+  });
+  publish_file(draft, path);
+}
+
+StoredCheckpoint read_checkpoint(const std::filesystem::path& path) {
+  const char* hint = "; remove the file to start the run anew";
+  return naming_file(path, hint, [&] {
+    const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+    const hdf5::Handle meta = hdf5::open_group(file, "meta");
+    if (hdf5::read_text_attribute(meta, "program") != "dem4grm checkpoint") throw IoError("is no checkpoint");
+    const double format = hdf5::read_number_attribute(meta, "format");
+    if (format != static_cast<double>(k_format)) {
+      throw IoError(fmt::format("has format {}, this program reads {}", format, k_format));
+    }
+    StoredCheckpoint out;
+    out.facts.wall_time = hdf5::read_number_attribute(meta, "wall_time");
+    out.facts.commit = hdf5::read_text_attribute(meta, "commit");
+    out.facts.resolved_toml = hdf5::read_text(meta, "resolved_toml");
+    const hdf5::Handle group = hdf5::open_group(file, "state");
+    std::vector<StateEntry> entries;
+    for (const std::string& name : hdf5::names_in(group)) entries.push_back({name, read_entry(group, name)});
+    out.state = StateArchive(std::move(entries));
+    return out;
+  });
+}
+
+}  // namespace dem

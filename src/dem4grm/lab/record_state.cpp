@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/lab/record_state.hpp"
+
+#include <array>
+#include <string>
+#include <tuple>
+
+namespace dem {
+namespace {
+
+/// All numbers of a row in the order of its declaration.
+template <class Row>
+auto numbers_of(Row& r) {
+  auto& e = r.energy;
+  return std::array{&r.displacement,
+                    &r.shear_stress,
+                    &r.shear_stress_corrected,
+                    &r.normal_stress,
+                    &r.vertical_displacement,
+                    &r.void_ratio,
+                    &r.inertial_number,
+                    &r.unbalanced_ratio,
+                    &r.half_force_difference,
+                    &r.normal_stress_worst,
+                    &r.plate_shear_stress,
+                    &e.kinetic,
+                    &e.contact_strain,
+                    &e.bond_strain,
+                    &e.boundary_work,
+                    &e.slip,
+                    &e.dashpot,
+                    &e.local_damping};
+}
+
+}  // namespace
+
+void exchange(StateArchive& archive, std::vector<FrameInfo>& frames) {
+  std::size_t count = frames.size();
+  archive.exchange("frames", count);
+  frames.resize(count);
+  for (FrameInfo& f : frames) {
+    archive.group("frame_" + std::to_string(&f - frames.data()), [&] {
+      archive.exchange("number", f.number);
+      archive.exchange("displacement", f.displacement);
+      archive.exchange("state_hash", f.state_hash);
+    });
+  }
+}
+
+void exchange(StateArchive& archive, std::vector<ShearRow>& rows) {
+  constexpr std::size_t n = std::tuple_size_v<decltype(numbers_of(rows.front()))>;
+  static_assert(sizeof(ShearRow) == n * sizeof(double), "a new member of ShearRow must be saved too");
+  std::vector<double> numbers;
+  for (ShearRow& r : rows) {
+    for (const double* v : numbers_of(r)) numbers.push_back(*v);
+  }
+  archive.exchange("rows", numbers);
+  rows.resize(numbers.size() / n);
+  for (std::size_t k = 0; k < rows.size() * n; ++k) *numbers_of(rows[k / n])[k % n] = numbers[k];
+}
+
+}  // namespace dem

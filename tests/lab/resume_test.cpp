@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A test that is stopped at any checkpoint of any stage and goes on from it ends with the bits of the straight one.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/random.hpp"
+#include "dem4grm/lab/direct_shear.hpp"
+
+namespace dem {
+namespace {
+
+DirectShearCase tiny_case() {
+  DirectShearCase test;
+  test.specimen.rubber_content = 0.3;
+  test.specimen.generation_void_ratio = 0.85;
+  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {5.0e-3, 1.0}};
+  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
+  test.box.length = test.box.width = 0.020;
+  test.box.height = 0.018;
+  test.box.upper_height = 0.035;
+  test.box.wing = 0.010;
+  test.bond.form = BondForm::incremental;
+  test.contact.hz_mode = 1;
+  test.shear.normal_stress = 60e3;
+  test.shear.velocity = 0.05;
+  test.shear.displacement = 0.6e-3;
+  test.servo.shear_speed_cap = 0.25;
+  test.equilibrium.force_ratio = 0.01;
+  test.equilibrium.plate_speed = 5e-3;
+  test.equilibrium.stress_tolerance = 0.05;
+  test.equilibrium.hold_steps = 200;
+  test.recording.frame_interval = 0.2e-3;
+  return test;
+}
+
+struct Stop {};
+
+/// Stops at the n-th offer of a checkpoint, keeps its state and what was recorded.
+struct Interrupter : LabObserver {
+  int offers_left = -1;  ///< never stops when negative
+  std::optional<std::vector<StateEntry>> state;
+  std::vector<ShearRow> rows;
+  std::map<int, std::string> hashes;
+  int offers = 0, new_stages = 0;
+  std::string stage;
+
+  void progress(const Progress& now) override { stage = now.stage; }
+  bool wants_checkpoint(bool is_new_stage) override {
+    ++offers;
+    new_stages += is_new_stage ? 1 : 0;
+    return offers_left >= 0 && offers_left-- == 0;
+  }
+  void checkpoint(const StateArchive& archive) override {
+    state = archive.entries();
+    throw Stop{};
+  }
+  void resumed(const ResumedRun& past) override {
+    rows.assign(past.rows.begin(), past.rows.end());
+    for (const FrameInfo& f : past.frames) hashes[f.number] = f.state_hash;
+  }
+  void shear_row(const ShearRow& row) override { rows.push_back(row); }
+  void frame(const Simulation& /*state*/, const FrameInfo& info) override { hashes[info.number] = info.state_hash; }
+};
+
+TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
+  const DirectShearCase test = tiny_case();
+  Interrupter straight;
+  const DirectShearResult expected = run_direct_shear(test, straight);
+  EXPECT_EQ(straight.new_stages, 3) << "after the fill, the compression and the final friction";
+
+  RandomSequence random(7, RandomStream::test, 0);
+  std::map<std::string, int> stopped_in;
+  const int before = omp_get_max_threads();
+  for (int trial = 0; trial < 8; ++trial) {
+    // Stopped up to three times on its way, each part with another number of threads.
+    std::optional<std::vector<StateEntry>> state;
+    std::map<int, std::string> hashes;
+    std::optional<DirectShearResult> result;
+    for (int part = 0; !result; ++part) {
+      omp_set_num_threads(1 + (trial + part) % 3);
+      Interrupter now;
+      // Every second trial stops in shear first, which offers least often.
+      const bool is_late = part == 0 && trial % 2 == 1;
+      const int drawn = static_cast<int>(random.uniform(0.0, 0.6 * straight.offers));
+      now.offers_left = is_late ? straight.offers - 2 - trial / 2 : (part < 3 ? drawn : -1);
+      try {
+        std::optional<StateArchive> from;
+        if (state) from.emplace(*state);
+        result = run_direct_shear(test, now, from ? &*from : nullptr);
+        hashes = now.hashes;
+      } catch (const Stop&) {
+        ++stopped_in[now.stage];
+        state = now.state;
+      }
+    }
+    EXPECT_EQ(result->state_hash, expected.state_hash) << "trial " << trial;
+    EXPECT_EQ(hashes, straight.hashes) << "trial " << trial;
+    ASSERT_EQ(result->rows.size(), expected.rows.size());
+    for (std::size_t k = 0; k < expected.rows.size(); ++k) {
+      EXPECT_EQ(result->rows[k].shear_stress, expected.rows[k].shear_stress) << "row " << k;
+      EXPECT_EQ(result->rows[k].energy.boundary_work, expected.rows[k].energy.boundary_work) << "row " << k;
+      EXPECT_EQ(result->rows[k].energy.local_damping, expected.rows[k].energy.local_damping) << "row " << k;
+    }
+    EXPECT_EQ(result->curve.peak_stress, expected.curve.peak_stress);
+    EXPECT_EQ(result->steps, expected.steps);
+    EXPECT_EQ(result->specimen.void_ratio_prepared, expected.specimen.void_ratio_prepared);
+    EXPECT_EQ(result->specimen.fill_overlap, expected.specimen.fill_overlap);
+    EXPECT_EQ(result->specimen.time_step.limited_by, expected.specimen.time_step.limited_by);
+  }
+  omp_set_num_threads(before);
+  for (const char* stage : {"fill", "compression", "shear"}) EXPECT_GT(stopped_in[stage], 0) << stage;
+}
+
+TEST(Resume, RefusesTheStateOfAnotherCase) {
+  DirectShearCase test = tiny_case();
+  Interrupter stopped;
+  stopped.offers_left = 60;
+  EXPECT_THROW(run_direct_shear(test, stopped), Stop);
+  ASSERT_TRUE(stopped.state.has_value());
+  test.box.height = 0.017;
+  StateArchive archive(*stopped.state);
+  LabObserver silent;
+  EXPECT_THROW(run_direct_shear(test, silent, &archive), IoError);
+}
+
+}  // namespace
+}  // namespace dem
