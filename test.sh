@@ -198,6 +198,7 @@ phase "release build" release_build
 phase "fast tests" run_tests "$release" fast -L fast -LE style --no-tests=error
 if [[ $scope == all ]]; then
   phase "slow tests" run_tests "$release" slow -L slow --no-tests=ignore
+  phase "long verification cases" run_tests "$release" full -L full --no-tests=ignore
   phase "address and undefined behaviour: build" sanitizer_build
   phase "address and undefined behaviour: tests" sanitizer_tests
   phase "data races: control and build" thread_build

@@ -4,6 +4,7 @@
 #
 #   tools/install_dependencies.sh build        to build and to run
 #   tools/install_dependencies.sh test         the same, and all that test.sh uses
+#   tools/install_dependencies.sh peers        the programs of others that DEM4GRM is compared with
 #   tools/install_dependencies.sh --list test  names the packages and stops
 #
 # Exit codes: 0 everything is installed, 64 wrong usage, 69 packages are missing and cannot be installed.
@@ -23,8 +24,11 @@ test_packages=(
   python3 python3-numpy python3-h5py python3-matplotlib
 )
 
+# See docs/verification/independent-codes.md; no other check uses them.
+peer_packages=(lammps yade python3 python3-numpy python3-matplotlib)
+
 usage() {
-  echo "usage: tools/install_dependencies.sh [--list] build|test" >&2
+  echo "usage: tools/install_dependencies.sh [--list] build|test|peers" >&2
   exit 64
 }
 
@@ -45,6 +49,7 @@ fi
 case "$1" in
   build) packages=("${build_packages[@]}") ;;
   test) packages=("${test_packages[@]}") ;;
+  peers) packages=("${peer_packages[@]}") ;;
   *) usage ;;
 esac
 if [[ $list_only == yes ]]; then

@@ -59,6 +59,7 @@ int run_program(int argc, char** argv) {
   dem::add_check(app);
   dem::add_run(app);
   dem::add_info(app);
+  dem::add_verify(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -14,6 +14,7 @@ void add_new(CLI::App& app);
 void add_check(CLI::App& app);
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
+void add_verify(CLI::App& app);
 
 /// Adds --set key=value, which may be given many times.
 void add_set_option(CLI::App& verb, std::vector<std::string>& settings);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that nothing touches, through the engine: a tumbling clump and a vibrating rubber grain.
+// A clump that nothing touches, through the engine.
 //
 // Expected: conservation of momentum, angular momentum and energy; Euler's and Jacobi's solutions for the free top
-// (Landau & Lifshitz, Mechanics, 37); the fundamental breathing of a bonded pair. Not tested: a grain that breaks.
+// (Landau & Lifshitz, Mechanics, 37). Not tested here: a vibrating rubber grain (`dem4grm verify`).
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "dem4grm/core/random.hpp"
 #include "support/scene_builder.hpp"
 
 namespace {
@@ -106,102 +105,5 @@ TEST(FreeTop, PebblesFollowTheBody) {
     EXPECT_LT(norm(s.balls.velocity(p) - c.velocity - cross(c.spin, arm)), 1e-4);
   }
 }
-
-/// A grain whose balls get random velocities (m/s) and spins; no damping of any kind.
-Simulation vibrating_grain(BondForm form, double speed) {
-  Scene scene = model_scene();
-  scene.bond.damping_ratio = 0.0;
-  scene.bond.linear_spring = false;
-  scene.bond.form = form;
-  scene.grains = {{{0.01, 0.02, 0.03}, normalized({1, 0.3, 0.2, -0.4})}};
-  Simulation s(scene);
-  RandomSequence random(5, RandomStream::test, 0);
-  for (int slot = 0; slot < k_grain_balls; ++slot) {
-    const int i = BallStore::rubber_index(0, slot);
-    const auto draw = [&](double size) {
-      return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-    };
-    s.balls.set_velocity(i, draw(speed));
-    s.balls.set_spin(i, draw(speed / scene.rubber_ball_radius));
-  }
-  return s;
-}
-
-struct Totals {
-  Vec3 momentum, angular_momentum;
-  double scale = 0.0;  // sum of |m v|
-};
-
-Totals totals(const Simulation& s) {
-  Totals t;
-  const double m = s.rubber_ball_mass, r = s.scene.rubber_ball_radius;
-  for (int slot = 0; slot < k_grain_balls; ++slot) {
-    const int i = BallStore::rubber_index(0, slot);
-    const Vec3 v = s.balls.velocity(i);
-    t.momentum += v * m;
-    t.angular_momentum +=
-        cross(s.balls.position(i) - s.scene.grains[0].position, v * m) + s.balls.spin(i) * (0.4 * m * r * r);
-    t.scale += norm(v) * m;
-  }
-  return t;
-}
-
-class FreeGrain : public ::testing::TestWithParam<BondForm> {};
-
-TEST_P(FreeGrain, KeepsMomentumAndAngularMomentum) {
-  Simulation s = vibrating_grain(GetParam(), 0.5);  // up to about 5 % strain
-  s.set_time_step(1e-6);
-  s.step();  // positions catch up with the velocities
-  const Totals before = totals(s);
-  run_steps(s, 5000);
-  const Totals after = totals(s);
-  EXPECT_LT(norm(after.momentum - before.momentum), 1e-12 * before.scale);
-  EXPECT_LT(norm(after.angular_momentum - before.angular_momentum),
-            1e-10 * before.scale * 4 * s.scene.rubber_ball_radius);
-}
-
-/// Strain energy at the present positions. The incremental form holds the shear force and moment of the last
-/// evaluation, one step behind the positions, so they are taken from the state after the next step.
-double bond_energy_now(const Simulation& s, const Simulation& next) {
-  if (s.scene.bond.form == BondForm::history_free) return s.energy().bond_strain;
-  double sum = 0.0;
-  for (int k = 0; k < k_grain_bonds; ++k) {
-    const BondReading now = read_bond(s, 0, k), later = read_bond(next, 0, k);
-    sum += bond_energy(s.bond, now.length, later.shear, later.moment, now.normal);
-  }
-  return sum;
-}
-
-/// Largest departure of the total energy from its start over 0.5 ms; kinetic energy as the mean over the half steps
-/// around the instant to which the strain energy belongs.
-double energy_departure(BondForm form, double speed, double dt) {
-  Simulation s = vibrating_grain(form, speed);
-  s.set_time_step(dt);
-  // Velocities belong to half steps: the start is the same motion for every dt up to its square if the first kick is
-  // half a step long; the bonds are at rest then, so there is no kick at all.
-  const double start = s.energy().kinetic;
-  double worst = 0.0;
-  const int n = static_cast<int>(std::lround(0.5e-3 / dt));
-  for (int k = 0; k < n; ++k) {
-    s.step();
-    Simulation next = s;
-    next.step();
-    const double kinetic = 0.5 * (s.energy().kinetic + next.energy().kinetic);
-    worst = std::max(worst, std::abs(kinetic + bond_energy_now(s, next) - start));
-    s = std::move(next);
-  }
-  return worst / start;
-}
-
-TEST_P(FreeGrain, EnergyErrorFallsWithTheSquareOfTheTimeStep) {
-  const double coarse = energy_departure(GetParam(), 1e-3, 2e-6), fine = energy_departure(GetParam(), 1e-3, 1e-6);
-  EXPECT_LT(coarse, 0.05);
-  EXPECT_NEAR(coarse / fine, 4.0, 1.0);
-}
-
-INSTANTIATE_TEST_SUITE_P(Forms, FreeGrain, ::testing::Values(BondForm::history_free, BondForm::incremental),
-                         [](const auto& tested) {
-                           return tested.param == BondForm::incremental ? "incremental" : "history_free";
-                         });
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace dem {
 /// Exit codes of the program; the meaning is part of the public interface (docs/reference/command-line.md).
 enum class ExitCode : int {
   done = 0,
+  missed = 1,
   usage = 64,
   bad_case = 65,
   missing_file = 66,
