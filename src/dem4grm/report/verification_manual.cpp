@@ -113,7 +113,7 @@ std::string verification_manual(const std::vector<CaseOutcome>& outcomes) {
   std::string text = fmt::format(
       "# Verification manual\n\n"
       "Written by `tools/make_verification_manual.py` from a run of `dem4grm verify`; not edited by hand. Every case\n"
-      "runs the engine that runs the tests, and every expected value comes from outside this project: a closed form, "
+      "runs the engine that runs the tests, and every expected value comes from outside the engine: a closed form, "
       "a\n"
       "published benchmark or an independent calculation named in the column `source`.\n\n"
       "Relative errors are |obtained / expected - 1|, absolute ones |obtained - expected| in the unit of the row; a "
