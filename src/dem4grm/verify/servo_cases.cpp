@@ -32,7 +32,8 @@ SpringBed spring_bed(double dt) {
   double force = 0.0, stiffness = 0.0;
   for (int k = 0; k < 9; ++k) {
     const double radius = k % 2 == 0 ? 2.5e-3 : 2.0e-3;
-    add_sphere(scene, {0.01 * (k % 3), 0.01 * (k / 3), 5e-3 - radius}, radius);
+    const int column = k % 3, row = k / 3;
+    add_sphere(scene, {0.01 * column, 0.01 * row, 5e-3 - radius}, radius);
     const double hertz = 4.0 / 3.0 / compliance * std::sqrt(radius);
     force += hertz * std::pow(k_overlap, 1.5);
     stiffness += 1.5 * hertz * std::sqrt(k_overlap);
