@@ -74,13 +74,13 @@ void add_verify(CLI::App& app) {
   verb->add_flag("--quick", options->is_quick, "only the cases that take seconds");
   verb->add_flag("--stop", options->stops, "stop after the first case with a miss");
   verb->add_flag("--list", options->is_list, "names and titles of the cases, runs nothing");
-  verb->add_flag("--json", options->is_json, "a list of the checked quantities as JSON on stdout, nothing else there");
-  verb->add_option("-j,--threads", options->threads, "threads, default all; any number gives the same results")
+  verb->add_flag("--json", options->is_json, "the quantities as JSON on stdout, nothing else there");
+  verb->add_option("-j,--threads", options->threads, "threads, default all;\nany number gives the same results")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   verb->add_option("--manual", options->manual_folder, "also write the manual and its curves into this folder")
       ->type_name("DIR");
-  verb->footer("Example:\n  dem4grm verify --only hertz-impact");
+  verb->footer("Example:\n  dem4grm verify --only hertz-impact-spheres");
   verb->callback([options] { verify(*options); });
 }
 

@@ -1,72 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The program as a user meets it: exit codes, messages, output folders, and the same bytes for any number of threads.
+// Not tested here: runs that are stopped or killed (stopped_run_test.cpp), `verify` (verify_command_test.cpp).
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
-#include "dem4grm/io/folder_lock.hpp"
-#include "dem4grm/io/json_text.hpp"
 #include "dem4grm/version.hpp"
-#include "support/run_program.hpp"
+#include "support/command_line.hpp"
 
 namespace dem {
 namespace {
 
+using test::CommandLine;
 using test::ProgramResult;
 using test::read_all;
-using test::RunningProgram;
-using test::TemporaryFolder;
 using test::write_all;
-
-/// 137 clumps and 23 rubber grains, sheared in about a second.
-constexpr const char* k_tiny_case = R"(name = "tiny"
-seed = 3
-[specimen]
-rubber_content = 0.2
-preparation_friction = 0.3
-generation_void_ratio = 0.85
-gravel_grading = [["3.6 mm", 0.0], ["4.0 mm", 1.0]]
-rubber_grading = [["3.6 mm", 0.0], ["3.8 mm", 1.0]]
-[box]
-length = "21 mm"
-width  = "21 mm"
-height = "21 mm"
-upper_height = "40 mm"
-[equilibrium]
-force_ratio = 0.02
-plate_speed = "5 mm/s"
-stress_tolerance = 0.05
-hold_steps = 200
-[shear]
-normal_stress = "100 kPa"
-velocity      = "200 mm/s"
-displacement  = "1 mm"
-[recording]
-frame_interval = "0.5 mm"
-)";
-
-class CommandLine : public ::testing::Test {
- protected:
-  CommandLine() { write_all(folder_ / "tiny.toml", k_tiny_case); }
-
-  [[nodiscard]] static std::vector<std::string> words(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), DEM_PROGRAM);
-    return arguments;
-  }
-  [[nodiscard]] ProgramResult run(std::vector<std::string> arguments) const {
-    return test::run_program(words(std::move(arguments)), folder_.path());
-  }
-  /// Runs, expects the code and that stderr says the text.
-  ProgramResult expect(int code, const std::string& text, std::vector<std::string> arguments) const {
-    ProgramResult result = run(std::move(arguments));
-    EXPECT_EQ(result.exit_code, code) << result.err;
-    EXPECT_NE(result.err.find(text), std::string::npos) << result.err;
-    return result;
-  }
-  [[nodiscard]] JsonObject json(const std::string& name) const { return read_json_file(folder_ / name); }
-
-  TemporaryFolder folder_;
-};
 
 TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
   const ProgramResult result = run({"--version"});
@@ -79,7 +27,7 @@ TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
 
 TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
   for (const std::vector<std::string>& verb :
-       std::vector<std::vector<std::string>>{{}, {"new"}, {"check"}, {"run"}, {"info"}}) {
+       std::vector<std::vector<std::string>>{{}, {"new"}, {"check"}, {"run"}, {"info"}, {"verify"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProgramResult result = run(arguments);
@@ -243,117 +191,6 @@ TEST_F(CommandLine, QuietRunSaysNothingAndJsonRunOnlyJson) {
   EXPECT_EQ(text_in(parse_json(spoken.out, "run --json"), "test"), "grain_compression");
   EXPECT_EQ(read_all(folder_ / "json/grain.csv"), read_all(folder_ / "quiet/grain.csv"));
   EXPECT_EQ(read_all(folder_ / "json/results.h5"), read_all(folder_ / "quiet/results.h5"));
-}
-
-/// A run that would take minutes, seen to be on its way.
-class LongRun : public CommandLine {
- protected:
-  [[nodiscard]] std::vector<std::string> long_run(const std::string& folder) const {
-    return words({"run", "tiny.toml", "-o", folder, "-j", "1", "--set", "shear.velocity=1 mm/s"});
-  }
-  /// Waits until rows are written.
-  [[nodiscard]] bool is_shearing(const std::string& folder) const {
-    for (int k = 0; k < 3000; ++k) {
-      const std::string rows = read_all(folder_ / (folder + "/shear.csv"));
-      if (std::count(rows.begin(), rows.end(), '\n') > 3) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-  }
-};
-
-TEST_F(LongRun, SecondProcessIsRefusedAndSignalsStopCleanly) {
-  RunningProgram first(long_run("out"), folder_.path());
-  ASSERT_TRUE(is_shearing("out"));
-  const std::string holder = fmt::format("process {} on host {}", first.process(), host_name());
-  const ProgramResult second = test::run_program(long_run("out"), folder_.path());
-  EXPECT_EQ(second.exit_code, 73) << second.err;
-  EXPECT_NE(second.err.find(holder), std::string::npos) << second.err;
-  EXPECT_NE(run({"info", "out"}).out.find("in stage"), std::string::npos);
-
-  first.send(SIGINT);
-  const ProgramResult stopped = first.wait();
-  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
-  EXPECT_NE(stopped.err.find("goes on from the checkpoint"), std::string::npos) << stopped.err;
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint.h5"));
-  EXPECT_EQ(text_in(json("out/status.json"), "state"), "stopped");
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/run.lock"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/summary.json"));
-  EXPECT_TRUE(read_all(folder_ / "out/shear.csv").ends_with('\n'));
-  const ProgramResult info = run({"info", "out"});
-  EXPECT_EQ(info.exit_code, 0) << info.err;
-  EXPECT_NE(info.out.find("stopped"), std::string::npos) << info.out;
-
-  RunningProgram third(long_run("out"), folder_.path());
-  ASSERT_TRUE(test::wait_for_file(folder_ / "out/run.lock", 10.0));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  third.send(SIGTERM);
-  const ProgramResult further = third.wait();
-  EXPECT_EQ(further.exit_code, 75) << further.err;
-  EXPECT_NE(further.err.find("goes on from the checkpoint"), std::string::npos) << further.err;
-}
-
-TEST_F(LongRun, KilledRunLeavesAFolderThatTheNextOneTakesOver) {
-  {
-    RunningProgram killed(long_run("out"), folder_.path());
-    ASSERT_TRUE(is_shearing("out"));
-    killed.send(SIGKILL);
-    EXPECT_EQ(killed.wait().signal, SIGKILL);
-  }
-  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/run.lock"));
-  EXPECT_EQ(run({"info", "out"}).exit_code, 0) << "frames written before the kill can be read";
-  std::filesystem::remove(folder_ / "out/shear.csv");  // so that the rows below are those of the next run
-  RunningProgram next(long_run("out"), folder_.path());
-  ASSERT_TRUE(is_shearing("out"));
-  next.send(SIGTERM);
-  const ProgramResult result = next.wait();
-  EXPECT_EQ(result.exit_code, 75);
-  EXPECT_NE(result.err.find("took over the lock"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("goes on from the checkpoint"), std::string::npos) << result.err;
-}
-
-TEST_F(CommandLine, StoppedFiveTimesEndsWithTheSameFiles) {
-  ASSERT_EQ(run({"run", "tiny.toml", "-o", "straight", "-j", "1"}).exit_code, 0);
-  int stops = 0, milliseconds = 37;
-  for (int part = 0;; ++part) {
-    ASSERT_LT(part, 60) << "a run that is stopped again and again must get somewhere";
-    const std::vector<std::string> words{
-        DEM_PROGRAM, "run", "tiny.toml", "-o", "stopped", "-j", std::to_string(1 + part % 2)};
-    RunningProgram program(words, folder_.path());
-    if (stops < 5) {
-      // A part that has little left to do may be over before its lock is seen.
-      for (int k = 0; k < 1000 && !std::filesystem::exists(folder_ / "stopped/run.lock") &&
-                      !std::filesystem::exists(folder_ / "stopped/summary.json");
-           ++k) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-      milliseconds = (milliseconds * 2731 + 13) % 900;  // at no particular moments
-      program.send(part % 2 == 0 ? SIGTERM : SIGINT);
-    }
-    const ProgramResult result = program.wait();
-    if (result.exit_code == 0) break;
-    ASSERT_EQ(result.exit_code, 75) << result.err;
-    ++stops;
-  }
-  EXPECT_GT(stops, 1);
-  for (const char* name : {"shear.csv", "results.h5", "specimen.h5"}) {
-    EXPECT_TRUE(read_all(folder_ / "stopped" / name) == read_all(folder_ / "straight" / name)) << name;
-  }
-  EXPECT_EQ(text_in(json("stopped/summary.json"), "state_hash"), text_in(json("straight/summary.json"), "state_hash"));
-  EXPECT_FALSE(std::filesystem::exists(folder_ / "stopped/checkpoint.h5"));
-}
-
-TEST_F(CommandLine, DamagedCheckpointIsNamedAndNothingIsLost) {
-  ASSERT_EQ(run({"run", "tiny.toml", "-o", "out", "-j", "1"}).exit_code, 0);
-  std::filesystem::remove(folder_ / "out/summary.json");
-  write_all(folder_ / "out/checkpoint.h5", "no HDF5");
-  const std::string rows = read_all(folder_ / "out/shear.csv");
-  const ProgramResult result = run({"run", "tiny.toml", "-o", "out", "-j", "1"});
-  EXPECT_EQ(result.exit_code, 74) << result.err;
-  EXPECT_NE(result.err.find("checkpoint.h5"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("remove the file"), std::string::npos) << result.err;
-  EXPECT_EQ(read_all(folder_ / "out/shear.csv"), rows);
 }
 
 TEST_F(CommandLine, FullDiskIsAnIoErrorAndMarksTheRun) {
