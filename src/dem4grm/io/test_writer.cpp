@@ -38,7 +38,8 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
       status_(folder.file(file_name::k_status), case_name(loaded.test), threads),
       remaining_(remaining_time_of(loaded.test)),
       is_direct_shear_(std::holds_alternative<DirectShearCase>(loaded.test)),
-      past_wall_time_(past_wall_time) {
+      past_wall_time_(past_wall_time),
+      last_checkpoint_(past_wall_time) {
   log_.info(fmt::format("dem4grm {} (commit {}, {}), host {}, {} thread{}", k_version, k_commit, k_compiler,
                         host_name(), threads, threads == 1 ? "" : "s"));
   log_.info(fmt::format("case {}", case_name(loaded.test)));

@@ -77,7 +77,7 @@ class TestWriter : public LabObserver {
   std::optional<TableFile> table_;  ///< shear.csv or grain.csv
   bool is_direct_shear_;
   bool has_shear_begun_ = false;
-  double past_wall_time_ = 0.0, last_checkpoint_ = 0.0;  ///< s
+  double past_wall_time_, last_checkpoint_;  ///< s of wall time, of all parts of the run
   std::string stage_;
   double peak_stress_ = 0.0;  ///< Pa, of the rows so far
   EnergyReport start_energy_, last_energy_;
