@@ -63,11 +63,7 @@ void exchange_contacts(StateArchive& archive, ContactTable& t) {
   archive.exchange("couple_z", t.couple_z);
   archive.exchange("lever_i", t.lever_i);
   archive.exchange("lever_j", t.lever_j);
-  if (archive.is_loading()) {
-    for (auto* a : {&t.radius_i, &t.radius_j, &t.hertz, &t.shear_ratio, &t.friction})
-      a->resize(0), a->resize(t.n_rows());
-    for (auto* a : {&t.index_i, &t.index_j}) a->resize(0), a->resize(t.n_rows());
-  }
+  if (archive.is_loading()) t.clear_constants();
   for (const auto* a : {&t.shear_x, &t.shear_y, &t.shear_z, &t.force_x, &t.force_y, &t.force_z, &t.couple_x,
                         &t.couple_y, &t.couple_z, &t.lever_i, &t.lever_j}) {
     if (a->size() != t.n_rows()) throw IoError("the saved state has a contact table of unequal columns");

@@ -36,16 +36,18 @@ void ContactTable::replace(std::vector<PairKey> new_pairs, std::vector<PairKey> 
     }
     a->swap(fresh);
   }
-  for (auto* a : {&radius_i, &radius_j, &hertz, &shear_ratio, &friction}) {
-    a->resize(0);
-    a->resize(rows);
-  }
-  for (auto* a : {&index_i, &index_j}) {
-    a->resize(0);
-    a->resize(rows);
-  }
   pairs = std::move(new_pairs);
   wall_pairs = std::move(new_wall_pairs);
+  clear_constants();
+}
+
+void ContactTable::clear_constants() {
+  const auto clear = [rows = n_rows()](auto& column) {
+    column.resize(0);
+    column.resize(rows);
+  };
+  for (auto* column : {&radius_i, &radius_j, &hertz, &shear_ratio, &friction}) clear(*column);
+  for (auto* column : {&index_i, &index_j}) clear(*column);
 }
 
 void ContactReferences::build(const ContactTable& table, std::span<const int> owner_of, std::span<const int> place_of,

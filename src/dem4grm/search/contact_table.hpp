@@ -48,6 +48,9 @@ struct ContactTable {
   /// Replaces the candidates; history of pairs that stay is kept, new pairs start from zero. Constants are left to the
   /// caller to fill. Both lists must be sorted.
   void replace(std::vector<PairKey> new_pairs, std::vector<PairKey> new_wall_pairs);
+
+  /// Gives every row constants of zero, for the caller to fill; dashpots are left alone.
+  void clear_constants();
 };
 
 /// For every owner (block of rubber grains, then clump): which rows act on it, where, and with which sign.

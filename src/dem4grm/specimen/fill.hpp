@@ -57,8 +57,8 @@ struct FillState {
 struct FillHooks {
   /// Called between two parts with the share done, 0 to 1. May throw to stop.
   std::function<void(double share, FillState& state, Simulation& s)> between;
-  /// Called once before the first part; loads an earlier state and returns true, or returns false.
-  std::function<bool(FillState& state, Simulation& s)> restore;
+  /// Called once before the first part; may load an earlier state.
+  std::function<void(FillState& state, Simulation& s)> restore;
 };
 
 /// Makes the fill. materials: a scene whose materials, contact and bond settings are used. Throws PhysicsError when the

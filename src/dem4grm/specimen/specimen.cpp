@@ -127,9 +127,7 @@ class Preparation {
     settings.seed = order_.seed;
     FillHooks hooks;
     hooks.restore = [&](FillState& state, Simulation& s) {
-      if (hooks_.resumed == nullptr) return false;
-      exchange_fill(*hooks_.resumed, state, s);
-      return true;
+      if (hooks_.resumed != nullptr) exchange_fill(*hooks_.resumed, state, s);
     };
     hooks.between = [&](double share, FillState& state, Simulation& s) {
       if (!hooks_.watch || state.is_relaxed) return;

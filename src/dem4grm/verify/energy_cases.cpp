@@ -4,6 +4,7 @@
 
 #include "dem4grm/core/random.hpp"
 #include "dem4grm/verify/cases.hpp"
+#include "dem4grm/verify/energy_balance.hpp"
 #include "dem4grm/verify/mindlin_ledger.hpp"
 #include "dem4grm/verify/scenes.hpp"
 #include "dem4grm/verify/shear_test.hpp"
@@ -22,12 +23,10 @@ struct SqueezeSettings {
 
 /// Works and energies at the end, J.
 struct Squeezed {
-  EnergyReport report;
-  double mindlin = 0.0;
-  [[nodiscard]] double stored() const { return report.kinetic + report.contact_strain + report.bond_strain; }
-  [[nodiscard]] double lost() const { return report.slip + report.dashpot + report.local_damping; }
-  [[nodiscard]] double closure() const { return (stored() + lost()) / report.boundary_work; }
-  [[nodiscard]] double closure_with_springs() const { return (stored() + lost() - mindlin) / report.boundary_work; }
+  EnergyBalance balance;
+  double mindlin = 0.0;  ///< gained by the shear springs without work
+  [[nodiscard]] double closure() const { return balance.sum() / balance.work; }
+  [[nodiscard]] double closure_with_springs() const { return (balance.sum() - mindlin) / balance.work; }
 };
 
 /// A closed box of 18 clumps and 9 rubber grains.
@@ -67,19 +66,9 @@ Squeezed squeeze(const SqueezeSettings& settings, Picture* picture = nullptr) {
     if (k == 9000) s.walls[5].velocity = {};
     s.step();
     springs.add_step(s);
-    if (picture == nullptr || k % 100 != 99) continue;
-    const EnergyReport e = s.energy();
-    double level = 0.0;
-    const double parts[] = {e.contact_strain + e.bond_strain, e.kinetic, e.local_damping, e.dashpot, e.slip};
-    for (std::size_t i = 0; i < 5; ++i) {
-      level += parts[i] * 1e3;
-      picture->series[i].x.push_back(s.time * 1e3);
-      picture->series[i].y.push_back(level);
-    }
-    picture->series[5].x.push_back(s.time * 1e3);
-    picture->series[5].y.push_back(e.boundary_work * 1e3);
+    if (picture != nullptr && k % 100 == 99) add_levels(*picture, s.time * 1e3, balance_of(s.energy()));
   }
-  return {s.energy(), springs.gained()};
+  return {balance_of(s.energy()), springs.gained()};
 }
 
 constexpr const char* k_balance = "conservation of energy";
@@ -87,32 +76,22 @@ constexpr const char* k_balance = "conservation of energy";
 void run_smooth_box(Findings& f) {
   SqueezeSettings settings;
   const Squeezed plain = squeeze(settings);
-  f.at_least("work of the walls", "J", 1e-3, plain.report.boundary_work, "the box is squeezed");
+  f.at_least("work of the walls", "J", 1e-3, plain.balance.work, "the box is squeezed");
   f.absolute("no friction, no damping: stored and lost over the work of the walls", "1", 1.0, plain.closure(), 1e-3,
              k_balance);
-  f.absolute("no friction: slip work", "J", 0.0, plain.report.slip, 0.0, "nothing slips");
-  f.absolute("no local damping: its loss", "J", 0.0, plain.report.local_damping, 0.0, "nothing is damped");
+  f.absolute("no friction: slip work", "J", 0.0, plain.balance.slip, 0.0, "nothing slips");
+  f.absolute("no local damping: its loss", "J", 0.0, plain.balance.damping, 0.0, "nothing is damped");
   settings.local_damping = 0.2;
   settings.dashpot = 0.1;
   const Squeezed damped = squeeze(settings);
   f.absolute("no friction, damping and dashpots: stored and lost over the work", "1", 1.0, damped.closure(), 1.5e-3,
              k_balance);
-  f.at_least("share of the dashpots", "1", 0.02, damped.report.dashpot / damped.report.boundary_work, "not idle");
-  f.at_least("share of local damping", "1", 0.02, damped.report.local_damping / damped.report.boundary_work,
-             "not idle");
+  f.at_least("share of the dashpots", "1", 0.02, damped.balance.dashpot / damped.balance.work, "not idle");
+  f.at_least("share of local damping", "1", 0.02, damped.balance.damping / damped.balance.work, "not idle");
 }
 
 void run_rough_box(Findings& f) {
-  Picture picture{"energy-of-squeeze",
-                  "Energies of a squeezed box, one upon the other",
-                  "time (ms)",
-                  "energy (mJ)",
-                  {{"strain", false, {}, {}},
-                   {"+ kinetic", false, {}, {}},
-                   {"+ local damping", false, {}, {}},
-                   {"+ dashpots", false, {}, {}},
-                   {"+ slip", false, {}, {}},
-                   {"work of the walls", true, {}, {}}}};
+  Picture picture = energy_picture("energy-of-squeeze", "Energies of a squeezed box, one upon the other", "time (ms)");
   for (const BondForm form : {BondForm::history_free, BondForm::incremental}) {
     const bool first = form == BondForm::history_free;
     const Squeezed c = squeeze({0.4, 0.2, 0.1, 0, form}, first ? &picture : nullptr);
@@ -120,7 +99,7 @@ void run_rough_box(Findings& f) {
     f.absolute(what + "stored and lost over the work", "1", 1.0, c.closure(), 0.01, k_balance);
     f.absolute(what + "the same less the gain of the shear springs", "1", 1.0, c.closure_with_springs(),
                first ? 4e-3 : 1e-3, k_balance);
-    f.at_least(what + "share of slip", "1", 0.02, c.report.slip / c.report.boundary_work, "not idle");
+    f.at_least(what + "share of slip", "1", 0.02, c.balance.slip / c.balance.work, "not idle");
   }
   f.picture(picture);
   const Squeezed rescaled = squeeze({0.4, 0.2, 0.1, 1, BondForm::history_free});

@@ -36,6 +36,8 @@ struct Point {
   double displacement, load;
 };
 
+constexpr double k_grain_height = 4.150e-3;  // m, outer, of the published grain
+
 constexpr const char* k_program = "separate explicit program for one grain";
 constexpr const char* k_second_program = "second separate program, loads at single displacements";
 
@@ -47,22 +49,33 @@ void hold_loads(Findings& findings, const std::string& setting, const std::vecto
   }
 }
 
-void add_curve(Picture& picture, const std::string& label, const std::vector<CompressionRow>& rows) {
-  Series s{label, false, {}, {}};
-  for (const CompressionRow& r : rows) {
-    s.x.push_back(r.displacement * 1e3);
-    s.y.push_back(r.load);
+/// One line or one row of points of the picture; both kinds of entries have a displacement and a load.
+template <class Entry>
+void add_series(Picture& picture, const std::string& label, bool is_reference, const std::vector<Entry>& entries) {
+  Series s{label, is_reference, {}, {}};
+  for (const Entry& e : entries) {
+    s.x.push_back(e.displacement * 1e3);
+    s.y.push_back(e.load);
   }
   picture.series.push_back(s);
 }
 
-void add_points(Picture& picture, const std::string& label, const std::vector<Point>& points) {
-  Series s{label, true, {}, {}};
-  for (const Point& p : points) {
-    s.x.push_back(p.displacement * 1e3);
-    s.y.push_back(p.load);
+/// What the first program says about plates of one friction.
+struct PlateReference {
+  std::string setting, plates;  ///< names of its loads, and of its curve and Poisson's ratios
+  std::vector<Point> loads;
+  std::vector<std::pair<double, double>> ratios;  ///< strain, Poisson's ratio
+};
+
+void hold_against_plates(Findings& findings, Picture& picture, const std::vector<CompressionRow>& rows,
+                         const PlateReference& reference) {
+  hold_loads(findings, reference.setting, rows, reference.loads, 0.08);
+  add_series(picture, "engine, " + reference.plates, false, rows);
+  add_series(picture, "separate program, " + reference.plates, true, reference.loads);
+  for (const auto& [strain, ratio] : reference.ratios) {
+    findings.absolute(fmt::format("Poisson's ratio at {:.0f} % strain, {}", 100.0 * strain, reference.plates), "1",
+                      ratio, value_at(rows, strain * k_grain_height, ratio_of), 0.02, k_program);
   }
-  picture.series.push_back(s);
 }
 
 GrainCompressionCase case_of_second_program() {
@@ -105,34 +118,29 @@ void check_second_program(Findings& findings) {
 }  // namespace
 
 void check_grain_compression(Findings& findings) {
-  const std::vector<Point> rough{{0.20e-3, 2.93}, {0.41e-3, 6.57}, {0.61e-3, 11.1}, {0.82e-3, 18.9},
-                                 {1.03e-3, 28.7}, {1.23e-3, 39.8}, {1.65e-3, 64.5}};
-  const std::vector<Point> smooth{{0.20e-3, 2.45}, {0.41e-3, 5.54}, {0.61e-3, 9.7}, {0.82e-3, 16.5}, {1.03e-3, 25.0}};
+  const PlateReference rough{"published values",
+                             "friction 0.27",
+                             {{0.20e-3, 2.93},
+                              {0.41e-3, 6.57},
+                              {0.61e-3, 11.1},
+                              {0.82e-3, 18.9},
+                              {1.03e-3, 28.7},
+                              {1.23e-3, 39.8},
+                              {1.65e-3, 64.5}},
+                             {{0.08, 0.35}, {0.32, 0.30}}};
+  const PlateReference smooth{"smooth plates",
+                              "smooth plates",
+                              {{0.20e-3, 2.45}, {0.41e-3, 5.54}, {0.61e-3, 9.7}, {0.82e-3, 16.5}, {1.03e-3, 25.0}},
+                              {{0.08, 0.40}, {0.24, 0.42}}};
   const std::vector<Point> soft{{0.41e-3, 6.01}, {0.61e-3, 9.8}, {0.82e-3, 15.7}, {1.03e-3, 23.0}, {1.23e-3, 31.3}};
   Picture picture{
       "grain-compression", "One rubber grain between two plates", "approach of the plates, mm", "load, N", {}};
   GrainCompressionCase test;
   test.strain = 0.41;
-  const auto published = compress(test);
-  hold_loads(findings, "published values", published, rough, 0.08);
-  add_curve(picture, "engine, friction 0.27", published);
-  add_points(picture, "separate program, friction 0.27", rough);
-  findings.absolute("Poisson's ratio at 8 % strain, friction 0.27", "1", 0.35,
-                    value_at(published, 0.08 * 4.150e-3, ratio_of), 0.02, k_program);
-  findings.absolute("Poisson's ratio at 32 % strain, friction 0.27", "1", 0.30,
-                    value_at(published, 0.32 * 4.150e-3, ratio_of), 0.02, k_program);
-
+  hold_against_plates(findings, picture, compress(test), rough);
   test.strain = 0.26;
   test.walls.friction = 0.0;
-  const auto without_friction = compress(test);
-  hold_loads(findings, "smooth plates", without_friction, smooth, 0.08);
-  add_curve(picture, "engine, smooth plates", without_friction);
-  add_points(picture, "separate program, smooth plates", smooth);
-  findings.absolute("Poisson's ratio at 8 % strain, smooth plates", "1", 0.40,
-                    value_at(without_friction, 0.08 * 4.150e-3, ratio_of), 0.02, k_program);
-  findings.absolute("Poisson's ratio at 24 % strain, smooth plates", "1", 0.42,
-                    value_at(without_friction, 0.24 * 4.150e-3, ratio_of), 0.02, k_program);
-
+  hold_against_plates(findings, picture, compress(test), smooth);
   test.strain = 0.31;
   test.walls.friction = 0.70;
   test.rubber.poisson_ratio = 0.3;

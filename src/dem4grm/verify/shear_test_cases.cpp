@@ -7,11 +7,14 @@
 #include <fmt/format.h>
 
 #include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/verify/energy_balance.hpp"
 #include "dem4grm/verify/shear_test.hpp"
 
 namespace dem {
 
 namespace {
+
+using namespace verify;
 
 constexpr double k_stress = 100e3;  // Pa
 
@@ -49,44 +52,11 @@ class StartKeeper : public LabObserver {
   EnergyReport start;
 };
 
-/// Parts of the balance since shear began, J.
-struct Balance {
-  double strain = 0.0, kinetic = 0.0, damping = 0.0, dashpot = 0.0, slip = 0.0, work = 0.0;
-  [[nodiscard]] double sum() const { return strain + kinetic + damping + dashpot + slip; }
-};
-
-Balance balance_of(const ShearRow& row, const EnergyReport& start) {
-  const EnergyReport& e = row.energy;
-  return {e.contact_strain + e.bond_strain - start.contact_strain - start.bond_strain,
-          e.kinetic - start.kinetic,
-          e.local_damping,
-          e.dashpot,
-          e.slip,
-          e.boundary_work};
-}
-
 Picture picture_of(const std::vector<ShearRow>& rows, const EnergyReport& start) {
-  Picture p{"energy-of-shear",
-            "Energies of a direct shear test, one upon the other",
-            "displacement (mm)",
-            "energy (mJ)",
-            {{"strain", false, {}, {}},
-             {"+ kinetic", false, {}, {}},
-             {"+ local damping", false, {}, {}},
-             {"+ dashpots", false, {}, {}},
-             {"+ slip", false, {}, {}},
-             {"work of the walls", true, {}, {}}}};
-  for (const ShearRow& row : rows) {
-    const Balance b = balance_of(row, start);
-    const double parts[] = {b.strain, b.kinetic, b.damping, b.dashpot, b.slip};
-    double level = 0.0;
-    for (std::size_t i = 0; i < 6; ++i) {
-      if (i < 5) level += parts[i];
-      p.series[i].x.push_back(row.displacement * 1e3);
-      p.series[i].y.push_back((i < 5 ? level : b.work) * 1e3);
-    }
-  }
-  return p;
+  Picture picture =
+      energy_picture("energy-of-shear", "Energies of a direct shear test, one upon the other", "displacement (mm)");
+  for (const ShearRow& row : rows) add_levels(picture, row.displacement * 1e3, balance_of(row.energy, start));
+  return picture;
 }
 
 /// Work of the walls from the recorded curve, J: shear stress along the displacement, less normal stress along the rise
@@ -141,10 +111,10 @@ void run_shear_energy(Findings& f) {
     StartKeeper keeper;
     const DirectShearResult r = run_direct_shear(test, keeper);
     const std::string what = fmt::format("unloading rule {}: ", mode);
-    const Balance end = balance_of(r.rows.back(), keeper.start);
+    const EnergyBalance end = balance_of(r.rows.back().energy, keeper.start);
     double worst = 0.0;
     for (const ShearRow& row : r.rows) {
-      const Balance b = balance_of(row, keeper.start);
+      const EnergyBalance b = balance_of(row.energy, keeper.start);
       worst = std::max(worst, std::abs(b.sum() - b.work) / end.work);
     }
     const double area = test.box.length * test.box.width;

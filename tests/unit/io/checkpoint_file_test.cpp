@@ -16,38 +16,64 @@
 namespace dem {
 namespace {
 
+/// A value of every kind that a state may hold.
+struct Sample {
+  double x = 0.1, big = std::numeric_limits<double>::max(), minus_zero = -0.0;
+  std::int64_t n = -(std::int64_t{1} << 62);
+  bool flag = true;
+  std::string text = "limited by: grain";
+  Vec3 v{1e-300, -2.5, 3.0};
+  Quaternion q{0.5, -0.5, 0.5, -0.5};
+  std::vector<double> none, list{1.0 / 3.0, -7.0};
+  std::vector<std::uint64_t> keys{0, (std::uint64_t{5} << 32U) | 7U};
+  AlignedArray<double> aligned{3};
+
+  Sample() { aligned[1] = 4.25; }
+
+  void exchange(StateArchive& archive) {
+    archive.group("outer", [&] {
+      archive.exchange("x", x);
+      archive.exchange("big", big);
+      archive.exchange("minus_zero", minus_zero);
+      archive.group("inner", [&] { archive.exchange("n", n); });
+      archive.exchange("flag", flag);
+      archive.exchange("text", text);
+    });
+    archive.exchange("v", v);
+    archive.exchange("q", q);
+    archive.exchange("none", none);
+    archive.exchange("list", list);
+    archive.exchange("keys", keys);
+    archive.exchange("aligned", aligned);
+  }
+};
+
+/// Every value and every length other than in a new one.
+Sample other_sample() {
+  Sample s;
+  s.x = s.big = 0.0;
+  s.minus_zero = 1.0;
+  s.n = 0;
+  s.flag = false;
+  s.text.clear();
+  s.v = {};
+  s.q = {};
+  s.none = {1.0};
+  s.list.clear();
+  s.keys.clear();
+  s.aligned.resize(0);
+  return s;
+}
+
 class CheckpointFile : public ::testing::Test {
  protected:
   test::TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "checkpoint.h5";
 
   static StateArchive some_state() {
-    StateArchive a;
-    double x = 0.1, big = std::numeric_limits<double>::max(), minus_zero = -0.0;
-    std::int64_t n = -(std::int64_t{1} << 62);
-    bool flag = true;
-    std::string text = "limited by: grain";
-    Vec3 v{1e-300, -2.5, 3.0};
-    Quaternion q{0.5, -0.5, 0.5, -0.5};
-    std::vector<double> none, list{1.0 / 3.0, -7.0};
-    std::vector<std::uint64_t> keys{0, (std::uint64_t{5} << 32U) | 7U};
-    AlignedArray<double> aligned(3);
-    aligned[1] = 4.25;
-    a.group("outer", [&] {
-      a.exchange("x", x);
-      a.exchange("big", big);
-      a.exchange("minus_zero", minus_zero);
-      a.group("inner", [&] { a.exchange("n", n); });
-      a.exchange("flag", flag);
-      a.exchange("text", text);
-    });
-    a.exchange("v", v);
-    a.exchange("q", q);
-    a.exchange("none", none);
-    a.exchange("list", list);
-    a.exchange("keys", keys);
-    a.exchange("aligned", aligned);
-    return a;
+    StateArchive archive;
+    Sample().exchange(archive);
+    return archive;
   }
 };
 
@@ -57,46 +83,27 @@ TEST_F(CheckpointFile, ReadsWhatWasWritten) {
   EXPECT_EQ(stored.facts.resolved_toml, "name = \"a\"\n");
   EXPECT_EQ(stored.facts.wall_time, 12.5);
   EXPECT_EQ(stored.facts.commit, k_commit);
-  StateArchive& a = stored.state;
-  double x = 0, big = 0, minus_zero = 1;
-  std::int64_t n = 0;
-  bool flag = false;
-  std::string text;
-  Vec3 v;
-  Quaternion q;
-  std::vector<double> none{1.0}, list;
-  std::vector<std::uint64_t> keys;
-  AlignedArray<double> aligned;
-  ASSERT_TRUE(a.has_group("outer"));
-  EXPECT_FALSE(a.has_group("out"));
-  a.exchange("list", list);  // in any order
-  a.group("outer", [&] {
-    a.exchange("x", x);
-    a.exchange("big", big);
-    a.exchange("minus_zero", minus_zero);
-    a.group("inner", [&] { a.exchange("n", n); });
-    a.exchange("flag", flag);
-    a.exchange("text", text);
-  });
-  a.exchange("v", v);
-  a.exchange("q", q);
-  a.exchange("none", none);
-  a.exchange("keys", keys);
-  a.exchange("aligned", aligned);
-  EXPECT_EQ(x, 0.1);
-  EXPECT_EQ(big, std::numeric_limits<double>::max());
-  EXPECT_TRUE(minus_zero == 0.0 && std::signbit(minus_zero));
-  EXPECT_EQ(n, -(std::int64_t{1} << 62));
-  EXPECT_TRUE(flag);
-  EXPECT_EQ(text, "limited by: grain");
-  EXPECT_EQ(v.x, 1e-300);
-  EXPECT_EQ(v.y, -2.5);
-  EXPECT_EQ(q.z, -0.5);
-  EXPECT_TRUE(none.empty());
-  EXPECT_EQ(list, (std::vector<double>{1.0 / 3.0, -7.0}));
-  EXPECT_EQ(keys, (std::vector<std::uint64_t>{0, (std::uint64_t{5} << 32U) | 7U}));
-  ASSERT_EQ(aligned.size(), 3U);
-  EXPECT_EQ(aligned[1], 4.25);
+  ASSERT_TRUE(stored.state.has_group("outer"));
+  EXPECT_FALSE(stored.state.has_group("out"));
+  std::vector<double> asked_first;
+  stored.state.exchange("list", asked_first);  // in any order
+  EXPECT_EQ(asked_first, (std::vector<double>{1.0 / 3.0, -7.0}));
+  Sample got = other_sample();
+  got.exchange(stored.state);
+  EXPECT_EQ(got.x, 0.1);
+  EXPECT_EQ(got.big, std::numeric_limits<double>::max());
+  EXPECT_TRUE(got.minus_zero == 0.0 && std::signbit(got.minus_zero));
+  EXPECT_EQ(got.n, -(std::int64_t{1} << 62));
+  EXPECT_TRUE(got.flag);
+  EXPECT_EQ(got.text, "limited by: grain");
+  EXPECT_EQ(got.v.x, 1e-300);
+  EXPECT_EQ(got.v.y, -2.5);
+  EXPECT_EQ(got.q.z, -0.5);
+  EXPECT_TRUE(got.none.empty());
+  EXPECT_EQ(got.list, (std::vector<double>{1.0 / 3.0, -7.0}));
+  EXPECT_EQ(got.keys, (std::vector<std::uint64_t>{0, (std::uint64_t{5} << 32U) | 7U}));
+  ASSERT_EQ(got.aligned.size(), 3U);
+  EXPECT_EQ(got.aligned[1], 4.25);
 }
 
 TEST_F(CheckpointFile, TypesAndLengthsAreHeld) {
