@@ -164,7 +164,8 @@ thread_tests() {
     --no-tests=ignore | tee "$logs/tsan.ctest"
 }
 
-# A file is analysed again when it, any header or the list of checks is newer than its stamp.
+# A file is analysed again when it, any header or the list of checks is newer than its stamp. The verification cases are
+# left out, as tests are: no run of a user's case goes through them, and they take two minutes of processor time.
 analyse_one() {
   local file=$1 stamp=build/tidy/$1.passed text
   local options=(--quiet --extra-arg=-Wno-error --extra-arg=-Wno-unknown-warning-option)
