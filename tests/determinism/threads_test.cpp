@@ -19,7 +19,7 @@ constexpr int k_steps = 500, k_large_steps = 200;
 MixtureOptions large_box() {
   MixtureOptions o;
   o.cells = {15, 9, 6};
-  o.skin_factor = 3.0;
+  o.margin_factor = 3.0;
   return o;
 }
 
@@ -61,7 +61,7 @@ TEST(Threads, SceneIsWorthTesting) {
   EXPECT_GT(big.clumps.clumps.size(), k_clump_block);
   EXPECT_GT(big.balls.n_blocks, 2);
   EXPECT_GT(big.contacts.n_pair_rows(), 1024U);
-  EXPECT_GT(big.wall_group.size(), 257U);
+  EXPECT_GT(big.wall_block.size(), 2U);
   EXPECT_GT(balance(big).active_contacts, 100);
   const Simulation s = run_mixture({}, k_steps);
   EXPECT_GT(balance(s).active_contacts, 200);
@@ -127,11 +127,9 @@ TEST(Observation, HashSeesEveryPartOfTheState) {
     return t.state_hash() != before;
   };
   const int ball = BallStore::rubber_index(34, 34);  // the last of the last grain, in a block with unused lanes
-  const auto i = static_cast<std::size_t>(ball);
-  EXPECT_TRUE(differs([=](Simulation& t) { nudge(t.balls.x[i]); }));
-  EXPECT_TRUE(differs([=](Simulation& t) { nudge(t.balls.vz[i]); }));
-  EXPECT_TRUE(differs([=](Simulation& t) { nudge(t.balls.wy[i]); }));
-  EXPECT_TRUE(differs([=](Simulation& t) { nudge(t.balls.qw[i]); }));
+  for (const BallComponent c : {BallComponent::x, BallComponent::vz, BallComponent::wy, BallComponent::qw}) {
+    EXPECT_TRUE(differs([=](Simulation& t) { nudge(t.balls.at(c, ball)); }));
+  }
   EXPECT_TRUE(differs([](Simulation& t) { nudge(t.clumps.clumps.back().angular_momentum.y); }));
   EXPECT_TRUE(differs([](Simulation& t) { nudge(t.clumps.clumps.back().orientation.z); }));
   EXPECT_TRUE(differs([](Simulation& t) { nudge(t.clumps.clumps.front().velocity.x); }));
@@ -141,13 +139,13 @@ TEST(Observation, HashSeesEveryPartOfTheState) {
   EXPECT_TRUE(differs([](Simulation& t) { nudge(t.grain_history.second_neighbour_shear[0]); }));
   EXPECT_TRUE(differs([](Simulation& t) {
     for (std::size_t row = 0; row < t.contacts.n_pairs(); ++row) {
-      if (t.contacts.shear_x[row] != 0.0) return nudge(t.contacts.shear_x[row]);
+      if (t.contacts.state[row].shear.x != 0.0) return nudge(t.contacts.state[row].shear.x);
     }
     FAIL() << "no contact with shear";
   }));
   // Unused lanes of the last block are no part of it.
   EXPECT_FALSE(differs([](Simulation& t) {
-    if (k_lanes > 1) nudge(t.balls.x[static_cast<std::size_t>(BallStore::rubber_index(35, 0))]);
+    if (k_lanes > 1) nudge(t.balls.at(BallComponent::x, BallStore::rubber_index(35, 0)));
   }));
 }
 

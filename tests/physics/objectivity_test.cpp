@@ -56,20 +56,20 @@ TEST_P(TurnedContact, KeepsItsForcesOverAFullTurn) {
   const Vec3 spin = spin_for(GetParam(), 2 * k_pi / n, dt);
   const Vec3 start[2] = {s.balls.position(0), s.balls.position(1)};
   Quaternion q;
-  Vec3 last_force = force, last_couple{s.contacts.couple_x[row], s.contacts.couple_y[row], s.contacts.couple_z[row]};
+  Vec3 last_force = force, last_couple = s.contacts.couple(row);
   double work = 0.0, worst = 0.0;
   for (int k = 0; k < n; ++k) {
     q = turned(q, spin, dt);
     for (std::size_t c = 0; c < 2; ++c) lead(s, c, rotate(q, start[c]), spin);
     evaluate_ball_contacts(s);
     const Vec3 f = s.contacts.force(row);
-    const Vec3 couple{s.contacts.couple_x[row], s.contacts.couple_y[row], s.contacts.couple_z[row]};
+    const Vec3 couple = s.contacts.couple(row);
     // Mean of the forces at both ends of the step: that is what leapfrog makes of it.
     const Vec3 mean_force = (f + last_force) * 0.5, mean_couple = (couple + last_couple) * 0.5;
     last_force = f;
     last_couple = couple;
     work += (dot(mean_force, s.balls.velocity(0) - s.balls.velocity(1)) +
-             dot(mean_couple, spin) * (s.contacts.lever_i[row] + s.contacts.lever_j[row])) *
+             dot(mean_couple, spin) * (s.contacts.lever_i(row) + s.contacts.lever_j(row))) *
             dt;
     worst = std::max(worst, norm(f - rotate(q, force)) / norm(force));
     worst = std::max(worst, norm(s.contacts.shear(row) - rotate(q, shear)) / norm(shear));

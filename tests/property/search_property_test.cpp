@@ -29,7 +29,7 @@ using Remembered = std::map<PairKey, Vec3>;
 void remember(ContactTable& t, Remembered& pairs, Remembered& walls, RandomSequence& random) {
   const auto write = [&](PairKey key, std::size_t row, Remembered& out) {
     const Vec3 v{random.uniform(), random.uniform(), random.uniform()};
-    t.shear_x[row] = v.x, t.shear_y[row] = v.y, t.shear_z[row] = v.z;
+    t.state[row].shear = v;
     out[key] = v;
   };
   pairs.clear();

@@ -16,7 +16,7 @@ struct MixtureOptions {
   ContactSettings contact;
   BondForm form = BondForm::history_free;
   double spring_friction = 0.0;
-  double skin_factor = 1.0;
+  double margin_factor = 1.0;
   int rebuild_every = 0;  ///< 0: when the engine wants it
   std::uint64_t seed = 1;
   Vec3 shift;  ///< m, of everything
@@ -71,7 +71,8 @@ inline Scene mixture_scene(const MixtureOptions& o = {}) {
 inline Simulation run_mixture(const MixtureOptions& o, int steps) {
   Simulation s(mixture_scene(o));
   const BoxSettings box = mixture_box(o);
-  s.skin *= o.skin_factor;
+  s.margins.least *= o.margin_factor;
+  s.margins.horizon *= o.margin_factor;
   s.set_time_step(1e-6);
   s.servo = {ShearBox::k_top_plate, 100e3 * box.length * box.width, 0.5, 1.0};
   for (int k = 0; k < steps; ++k) {

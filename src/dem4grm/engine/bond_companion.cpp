@@ -35,7 +35,7 @@ void add_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLos
     for (std::size_t lane = 0; lane < w; ++lane) {
       // A broken pair is a Hertz contact already.
       if (can_break && s.grain_history.bond_is_broken[(block * k_grain_bonds + k) * w + lane] != 0) continue;
-      const std::size_t a = pair.i * w + lane, b = pair.j * w + lane;
+      const std::size_t a = ball_at(pair.i, lane), b = ball_at(pair.j, lane);
       double* h = stored + lane;
       const HertzGeometry geometry = hertz_geometry({load3(g.x, g.y, g.z, b) - load3(g.x, g.y, g.z, a),
                                                      load3(g.vx, g.vy, g.vz, b) - load3(g.vx, g.vy, g.vz, a),
@@ -48,8 +48,8 @@ void add_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLos
       const Companion c = companion_of<options>(s, geometry);
       h[0] = c.shear.x, h[w] = c.shear.y, h[2 * w] = c.shear.z;
       const Vec3 couple = cross(geometry.normal, c.force);
-      add_load(out, a, c.force, couple * geometry.lever_i);
-      add_load(out, b, -c.force, couple * geometry.lever_j);
+      add_load(out, load_at(pair.i, lane), c.force, couple * geometry.lever_i);
+      add_load(out, load_at(pair.j, lane), -c.force, couple * geometry.lever_j);
       losses.slip[lane] += c.slip;
       losses.dashpot[lane] += c.dashpot;
     }

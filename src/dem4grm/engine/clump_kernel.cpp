@@ -26,11 +26,11 @@ Load gather(const Simulation& s, std::size_t c) {
     const int place = s.references.place[static_cast<std::size_t>(k)];
     const bool second = (place & ContactReferences::k_second) != 0;
     const double sign = second ? -1.0 : 1.0;
-    const double lever = second ? t.lever_j[row] : t.lever_i[row];
+    const double lever = second ? t.lever_j(row) : t.lever_i(row);
     const Vec3 f = t.force(row) * sign;
     const Vec3 arm = s.balls.position(place & ~ContactReferences::k_second) - centroid;
     load.force += f;
-    load.torque += cross(arm, f) + Vec3{t.couple_x[row], t.couple_y[row], t.couple_z[row]} * lever;
+    load.torque += cross(arm, f) + t.couple(row) * lever;
   }
   return load;
 }
@@ -51,24 +51,85 @@ double carry_pebbles(Simulation& s, const Clump& body, double inverse_dt) {
   return top_speed2;
 }
 
-double advance(Simulation& s, std::size_t c) {
-  Clump& body = s.clumps.clumps[c];
-  const double dt = s.dt, alpha = s.scene.integration.local_damping;
-  const Load load = gather(s, c);
-  const Vec3 force = locally_damped(load.force, body.velocity, alpha);
-  const Vec3 torque = locally_damped(load.torque, body.spin, alpha);
-  const Vec3 velocity_before = body.velocity, spin_before = body.spin;
-  body.velocity += force * (dt / body.mass);
-  body.angular_momentum += torque * dt;
-  body.position += body.velocity * dt;
-  const Vec3 inverse_inertia{1.0 / body.inertia.x, 1.0 / body.inertia.y, 1.0 / body.inertia.z};
-  const FreeRotation turn = rotate_freely(body.orientation, body.angular_momentum, inverse_inertia, dt);
-  body.orientation = turn.orientation;
-  body.spin = turn.spin;
-  s.ledger.clump_damping[c] +=
+/// Clumps that move side by side, one in each lane.
+constexpr std::size_t k_clump_lanes = 8;
+static_assert(k_clump_block % k_clump_lanes == 0);
+
+using ClumpLane = double[k_clump_lanes];
+struct alignas(64) ClumpLanes {
+  ClumpLane position[3], velocity[3], momentum[3], spin[3], orientation[4];
+  ClumpLane force[3], torque[3], mass, inertia[3], lost;
+};
+
+DEM_INLINE void put(ClumpLane (&to)[3], std::size_t lane, const Vec3& v) {
+  to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
+}
+DEM_INLINE Vec3 take(const ClumpLane (&from)[3], std::size_t lane) {
+  return {from[0][lane], from[1][lane], from[2][lane]};
+}
+
+void load(const Clump& body, const Load& load, ClumpLanes& c, std::size_t lane) {
+  put(c.position, lane, body.position);
+  put(c.velocity, lane, body.velocity);
+  put(c.momentum, lane, body.angular_momentum);
+  put(c.spin, lane, body.spin);
+  put(c.force, lane, load.force);
+  put(c.torque, lane, load.torque);
+  put(c.inertia, lane, body.inertia);
+  c.orientation[0][lane] = body.orientation.w, c.orientation[1][lane] = body.orientation.x;
+  c.orientation[2][lane] = body.orientation.y, c.orientation[3][lane] = body.orientation.z;
+  c.mass[lane] = body.mass;
+}
+
+void store(const ClumpLanes& c, std::size_t lane, Clump& body) {
+  body.position = take(c.position, lane);
+  body.velocity = take(c.velocity, lane);
+  body.angular_momentum = take(c.momentum, lane);
+  body.spin = take(c.spin, lane);
+  body.orientation = {c.orientation[0][lane], c.orientation[1][lane], c.orientation[2][lane], c.orientation[3][lane]};
+}
+
+/// Damping, leapfrog and rotation of one lane.
+DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double alpha) {
+  const Vec3 velocity_before = take(c.velocity, lane), spin_before = take(c.spin, lane);
+  const Vec3 all_force = take(c.force, lane), all_torque = take(c.torque, lane);
+  const Vec3 force = locally_damped(all_force, velocity_before, alpha);
+  const Vec3 torque = locally_damped(all_torque, spin_before, alpha);
+  const Vec3 velocity = velocity_before + force * (dt / c.mass[lane]);
+  const Vec3 momentum = take(c.momentum, lane) + torque * dt;
+  const Vec3 inertia = take(c.inertia, lane);
+  const Quaternion before{c.orientation[0][lane], c.orientation[1][lane], c.orientation[2][lane],
+                          c.orientation[3][lane]};
+  const FreeRotation turn = rotate_freely(before, momentum, {1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z}, dt);
+  put(c.position, lane, take(c.position, lane) + velocity * dt);
+  put(c.velocity, lane, velocity);
+  put(c.momentum, lane, momentum);
+  put(c.spin, lane, turn.spin);
+  c.orientation[0][lane] = turn.orientation.w, c.orientation[1][lane] = turn.orientation.x;
+  c.orientation[2][lane] = turn.orientation.y, c.orientation[3][lane] = turn.orientation.z;
+  c.lost[lane] =
       0.5 * dt *
-      (dot(load.force - force, body.velocity + velocity_before) + dot(load.torque - torque, body.spin + spin_before));
-  return carry_pebbles(s, body, 1.0 / dt);
+      (dot(all_force - force, velocity + velocity_before) + dot(all_torque - torque, turn.spin + spin_before));
+}
+
+/// Clumps [begin, end), at most k_clump_lanes of them; returns the largest speed of a pebble squared.
+double advance(Simulation& s, std::size_t begin, std::size_t end) {
+  const double dt = s.dt, alpha = s.scene.integration.local_damping;
+  ClumpLanes c;
+  for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) {
+    // Lanes without a clump move the first one again, and nobody looks.
+    const std::size_t k = begin + lane < end ? begin + lane : begin;
+    load(s.clumps.clumps[k], gather(s, k), c, lane);
+  }
+#pragma omp simd
+  for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) move(c, lane, dt, alpha);
+  double top_speed2 = 0.0;
+  for (std::size_t k = begin; k < end; ++k) {
+    store(c, k - begin, s.clumps.clumps[k]);
+    s.ledger.clump_damping[k] += c.lost[k - begin];
+    top_speed2 = std::max(top_speed2, carry_pebbles(s, s.clumps.clumps[k], 1.0 / dt));
+  }
+  return top_speed2;
 }
 
 }  // namespace
@@ -77,7 +138,9 @@ void advance_clumps(Simulation& s) {
   const auto first = static_cast<std::size_t>(s.balls.n_blocks);
   for_each_block(s.clumps.clumps.size(), k_clump_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
     double top_speed2 = 0.0;
-    for (std::size_t c = begin; c < end; ++c) top_speed2 = std::max(top_speed2, advance(s, c));
+    for (std::size_t c = begin; c < end; c += k_clump_lanes) {
+      top_speed2 = std::max(top_speed2, advance(s, c, std::min(c + k_clump_lanes, end)));
+    }
     s.block_top_speed2[first + block] = top_speed2;
   });
 }

@@ -28,10 +28,9 @@ double contact_energy(const Simulation& s) {
   const ContactTable& t = s.contacts;
   double energy = 0.0;
   for (std::size_t row = 0; row < t.n_rows(); ++row) {
-    // The overlap follows from the lever arm: lever = R - d/2.
-    const double overlap = 2.0 * (t.radius_i[row] - t.lever_i[row]);
     if (t.radius_i[row] <= 0.0 || dot(t.force(row), t.force(row)) == 0.0) continue;
-    energy += hertz_mindlin_energy({t.hertz[row], t.shear_ratio[row], 0.0, 0.0, 0.0}, overlap, t.shear(row));
+    energy +=
+        hertz_mindlin_energy({t.hertz[row], t.shear_ratio[row], 0.0, 0.0, 0.0}, t.state[row].overlap, t.shear(row));
   }
   return energy;
 }
@@ -84,13 +83,9 @@ BondReading read_bond(const Simulation& s, int grain, int bond_index) {
     out.shear = {h[0], h[w], h[2 * w]};
     if (!out.is_broken) out.moment = {h[3 * w], h[4 * w], h[5 * w]};
   } else {
-    const auto orientation = [&](int i) {
-      const auto k = static_cast<std::size_t>(i);
-      return Quaternion{s.balls.qw[k], s.balls.qx[k], s.balls.qy[k], s.balls.qz[k]};
-    };
     const Vec3 direction =
         (grain_site(pair.j) - grain_site(pair.i)) * (1.0 / norm(grain_site(pair.j) - grain_site(pair.i)));
-    const Quaternion qi = orientation(a), qj = orientation(b);
+    const Quaternion qi = s.balls.orientation(a), qj = s.balls.orientation(b);
     const BondForce f = history_free_bond(s.bond, branch, {}, rotate(qi, direction) + rotate(qj, direction), qi, qj);
     out.shear = perpendicular(f.force, out.normal);
     out.moment = f.moment;
@@ -132,11 +127,8 @@ std::string Simulation::state_hash() const {
   h.add(time);
   h.add(dt);
   for (int id = 0; id < balls.n_rubber_balls(); ++id) {
-    const auto i = static_cast<std::size_t>(balls.index_of_id(id));
-    for (const auto* a : {&balls.x, &balls.y, &balls.z, &balls.vx, &balls.vy, &balls.vz, &balls.wx, &balls.wy,
-                          &balls.wz, &balls.qw, &balls.qx, &balls.qy, &balls.qz}) {
-      h.add((*a)[i]);
-    }
+    const double* ball = balls.state.data() + balls.index_of_id(id);
+    for (std::size_t c = 0; c < k_rubber_components; ++c) h.add(ball[c * k_lanes]);
   }
   const std::size_t w = k_lanes;
   for (int g = 0; g < balls.n_grains; ++g) {

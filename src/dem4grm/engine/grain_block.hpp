@@ -6,37 +6,52 @@
 
 namespace dem {
 
-/// Forces and torques of the balls of one block: component c of (slot, lane) at value[c][slot * W + lane];
-/// components 0 to 2 force (N), 3 to 5 torque (N m).
+/// Numbers of one load: force (N), torque (N m).
+inline constexpr std::size_t k_load_components = 6;
+
+/// Forces and torques of the balls of one block: component c of (slot, lane) at value[(slot * 6 + c) * W + lane].
+/// Not initialised: the first who knows something about a ball stores it.
 struct alignas(64) BlockForces {
-  double value[6][k_grain_balls * k_lanes] = {};
+  double value[k_grain_balls * k_load_components * k_lanes];
 };
 
-/// Pointers to slot 0, lane 0 of one block; slot s, lane l is at offset s * W + l.
-struct GrainBlock {
-  double* __restrict x, * __restrict y, * __restrict z;
-  double* __restrict vx, * __restrict vy, * __restrict vz;
-  double* __restrict wx, * __restrict wy, * __restrict wz;
-  double* __restrict qw, * __restrict qx, * __restrict qy, * __restrict qz;
+/// Loads by contacts of one block, ball by ball: ball (slot, lane) at [slot * W + lane]. Four numbers for the force and
+/// four for the torque, each a register with one lane to spare.
+struct alignas(64) ContactLoads {
+  double value[k_grain_balls * k_lanes][8] = {};
 };
+
+/// Where the load of (slot, lane) begins.
+constexpr std::size_t load_at(std::size_t slot, std::size_t lane) { return slot * k_load_components * k_lanes + lane; }
+
+/// Pointers to the components of (slot 0, lane 0) of one block; those of another ball are ball_at(slot, lane) further.
+struct GrainBlock {
+  double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz, *qw, *qx, *qy, *qz;
+};
+
+inline constexpr std::size_t k_block_length = k_grain_balls * k_rubber_components * k_lanes;
+constexpr std::size_t ball_at(std::size_t slot, std::size_t lane) {
+  return slot * k_rubber_components * k_lanes + lane;
+}
 
 inline GrainBlock grain_block(BallStore& b, std::size_t block) {
-  const std::size_t k = block * k_grain_balls * k_lanes;
-  return {b.x.data() + k,  b.y.data() + k,  b.z.data() + k,  b.vx.data() + k, b.vy.data() + k,
-          b.vz.data() + k, b.wx.data() + k, b.wy.data() + k, b.wz.data() + k, b.qw.data() + k,
-          b.qx.data() + k, b.qy.data() + k, b.qz.data() + k};
+  using C = BallComponent;
+  const auto at = [base = b.state.data() + block * k_block_length](C c) { return base + component_offset(c); };
+  return {at(C::x),  at(C::y),  at(C::z),  at(C::vx), at(C::vy), at(C::vz), at(C::wx),
+          at(C::wy), at(C::wz), at(C::qw), at(C::qx), at(C::qy), at(C::qz)};
 }
 
 DEM_INLINE Vec3 load3(const double* a, const double* b, const double* c, std::size_t k) { return {a[k], b[k], c[k]}; }
 
-/// Adds force f and torque t to ball k = slot * W + lane.
+/// Adds force f and torque t to the load that begins at k (load_at).
 DEM_INLINE void add_load(BlockForces& out, std::size_t k, const Vec3& f, const Vec3& t) {
-  out.value[0][k] += f.x;
-  out.value[1][k] += f.y;
-  out.value[2][k] += f.z;
-  out.value[3][k] += t.x;
-  out.value[4][k] += t.y;
-  out.value[5][k] += t.z;
+  double* v = out.value + k;
+  v[0] += f.x;
+  v[k_lanes] += f.y;
+  v[2 * k_lanes] += f.z;
+  v[3 * k_lanes] += t.x;
+  v[4 * k_lanes] += t.y;
+  v[5 * k_lanes] += t.z;
 }
 
 /// What a block lost in this step, J per lane.

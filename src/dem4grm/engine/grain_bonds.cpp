@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The 64 bonds of k_lanes grains at once, in both forms.
+#include <utility>
+
 #include "dem4grm/engine/grain_block.hpp"
 #include "dem4grm/engine/hertz_dispatch.hpp"
 
@@ -18,38 +20,94 @@ DEM_INLINE Quaternion load_orientation(const GrainBlock& g, std::size_t k) {
   return {g.qw[k], g.qx[k], g.qy[k], g.qz[k]};
 }
 
-DEM_INLINE void fill_diagonals(const GrainBlock& g, int slot, Diagonals& d) {
-  const std::size_t base = static_cast<std::size_t>(slot) * k_lanes;
+/// The four diagonals of one ball.
+struct BallDiagonals {
+  Vec3 d4, d5, d6, d7;
+};
+
+DEM_INLINE BallDiagonals diagonals_of(const Quaternion& q) {
+  const Frame f = frame_of(q);
+  const Vec3 a = f.e1 * k_inverse_root3, b = f.e2 * k_inverse_root3, c = f.e3 * k_inverse_root3;
+  const Vec3 plus = a + b, minus = a - b;
+  return {c - plus, c + minus, c - minus, c + plus};
+}
+
+DEM_INLINE void fill_diagonals(const GrainBlock& g, std::size_t slot, Diagonals& d) {
 #pragma omp simd
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-    const Frame f = frame_of(load_orientation(g, base + lane));
-    const Vec3 a = f.e1 * k_inverse_root3, b = f.e2 * k_inverse_root3, c = f.e3 * k_inverse_root3;
-    const Vec3 plus = a + b, minus = a - b;
-    const Vec3 d4 = c - plus, d5 = c + minus, d6 = c - minus, d7 = c + plus;
-    d.x[0][lane] = d4.x, d.y[0][lane] = d4.y, d.z[0][lane] = d4.z;
-    d.x[1][lane] = d5.x, d.y[1][lane] = d5.y, d.z[1][lane] = d5.z;
-    d.x[2][lane] = d6.x, d.y[2][lane] = d6.y, d.z[2][lane] = d6.z;
-    d.x[3][lane] = d7.x, d.y[3][lane] = d7.y, d.z[3][lane] = d7.z;
+    const BallDiagonals b = diagonals_of(load_orientation(g, ball_at(slot, lane)));
+    d.x[0][lane] = b.d4.x, d.y[0][lane] = b.d4.y, d.z[0][lane] = b.d4.z;
+    d.x[1][lane] = b.d5.x, d.y[1][lane] = b.d5.y, d.z[1][lane] = b.d5.z;
+    d.x[2][lane] = b.d6.x, d.y[2][lane] = b.d6.y, d.z[2][lane] = b.d6.z;
+    d.x[3][lane] = b.d7.x, d.y[3][lane] = b.d7.y, d.z[3][lane] = b.d7.z;
   }
 }
 
-/// One bond of all lanes: centre slot i, corner slot j; `sign` turns the stored diagonal into the bond's direction.
-DEM_INLINE void add_bond(const BondParameters& p, const GrainBlock& g, const SlotPair& bond, int diagonal, double sign,
-                         const Diagonals& di, const Diagonals& dj, double dt, BlockForces& out, BlockLosses& losses) {
-  const std::size_t i = bond.i * k_lanes, j = bond.j * k_lanes;
+/// A cell centre of one lane and the sums of what its bonds do to it, in registers while its eight bonds are evaluated.
+struct Centre {
+  Vec3 position, velocity;
+  Quaternion orientation;
+  BallDiagonals diagonals;
+  Vec3 force, torque;
+  double dashpot_power = 0.0;
+};
+
+/// The bond of a cell centre with its corner at octant o, for one lane. Opposite octants share a diagonal.
+template <std::size_t centre, std::size_t o>
+DEM_INLINE void add_bond(const BondParameters& p, const GrainBlock& g, const Diagonals* corners, std::size_t lane,
+                         Centre& c, BlockForces& out) {
+  constexpr std::size_t corner = k_bonds_of_grain[8 * centre + o].j;
+  constexpr std::size_t diagonal = o >= 4 ? o - 4 : 3 - o;
+  constexpr double sign = o >= 4 ? 1.0 : -1.0;
+  const std::size_t b = ball_at(corner, lane);
+  const Diagonals& d = corners[corner];
+  const Vec3& own = diagonal == 0   ? c.diagonals.d4
+                    : diagonal == 1 ? c.diagonals.d5
+                    : diagonal == 2 ? c.diagonals.d6
+                                    : c.diagonals.d7;
+  const Vec3 directions = (own + load3(d.x[diagonal], d.y[diagonal], d.z[diagonal], lane)) * sign;
+  const BondForce f =
+      history_free_bond(p, load3(g.x, g.y, g.z, b) - c.position, load3(g.vx, g.vy, g.vz, b) - c.velocity, directions,
+                        c.orientation, load_orientation(g, b));
+  c.force += f.force;
+  c.torque += f.couple + f.moment;
+  c.dashpot_power += f.dashpot_power;
+  add_load(out, load_at(corner, lane), -f.force, f.couple - f.moment);
+}
+
+template <std::size_t centre, std::size_t... octants>
+DEM_INLINE void add_bonds_of_lane(const BondParameters& p, const GrainBlock& g, const Diagonals* corners,
+                                  std::size_t lane, double dt, BlockForces& out, BlockLosses& losses,
+                                  std::index_sequence<octants...> /*eight*/) {
+  constexpr std::size_t slot = k_grain_corners + centre;
+  const std::size_t a = ball_at(slot, lane);
+  Centre c;
+  c.position = load3(g.x, g.y, g.z, a);
+  c.velocity = load3(g.vx, g.vy, g.vz, a);
+  c.orientation = load_orientation(g, a);
+  c.diagonals = diagonals_of(c.orientation);
+  (add_bond<centre, octants>(p, g, corners, lane, c, out), ...);
+  add_load(out, load_at(slot, lane), c.force, c.torque);
+  losses.dashpot[lane] += c.dashpot_power * dt;
+}
+
+/// Starts to load one eighth of the state of the next block, so that it is in the cache when its turn comes.
+template <std::size_t share>
+DEM_INLINE void prefetch_next_block(const GrainBlock& g) {
+  constexpr std::size_t line = 64 / sizeof(double), lines = k_block_length / line;
+  const double* next = g.x + k_block_length;
+  for (std::size_t k = share * lines / k_grain_centres; k < (share + 1) * lines / k_grain_centres; ++k) {
+    __builtin_prefetch(next + k * line, 1);
+  }
+}
+
+template <std::size_t centre>
+DEM_INLINE void add_bonds_of_centre(const BondParameters& p, const GrainBlock& g, const Diagonals* corners, double dt,
+                                    BlockForces& out, BlockLosses& losses) {
+  prefetch_next_block<centre>(g);
 #pragma omp simd
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-    const std::size_t a = i + lane, b = j + lane;
-    const Vec3 branch = load3(g.x, g.y, g.z, b) - load3(g.x, g.y, g.z, a);
-    const Vec3 relative = load3(g.vx, g.vy, g.vz, b) - load3(g.vx, g.vy, g.vz, a);
-    const Vec3 directions{(di.x[diagonal][lane] + dj.x[diagonal][lane]) * sign,
-                          (di.y[diagonal][lane] + dj.y[diagonal][lane]) * sign,
-                          (di.z[diagonal][lane] + dj.z[diagonal][lane]) * sign};
-    const BondForce f =
-        history_free_bond(p, branch, relative, directions, load_orientation(g, a), load_orientation(g, b));
-    add_load(out, a, f.force, f.couple + f.moment);
-    add_load(out, b, -f.force, f.couple - f.moment);
-    losses.dashpot[lane] += f.dashpot_power * dt;
+    add_bonds_of_lane<centre>(p, g, corners, lane, dt, out, losses, std::make_index_sequence<8>{});
   }
 }
 
@@ -58,22 +116,17 @@ DEM_INLINE void add_bond(const BondParameters& p, const GrainBlock& g, const Slo
 void add_history_free_bonds(const BondParameters& parameters, const GrainBlock& g, double dt, BlockForces& out,
                             BlockLosses& losses) {
   const BondParameters p = parameters;
-  Diagonals corner[k_grain_corners];
-  for (int slot = 0; slot < k_grain_corners; ++slot) fill_diagonals(g, slot, corner[slot]);
-  for (int c = 0; c < k_grain_centres; ++c) {
-    Diagonals centre;
-    fill_diagonals(g, k_grain_corners + c, centre);
-    for (int o = 0; o < 8; ++o) {
-      const SlotPair bond = k_bonds_of_grain[static_cast<std::size_t>(8 * c + o)];
-      const bool stored = o >= 4;
-      add_bond(p, g, bond, stored ? o - 4 : 3 - o, stored ? 1.0 : -1.0, centre, corner[bond.j], dt, out, losses);
-    }
-  }
+  Diagonals corners[k_grain_corners];
+  for (std::size_t slot = 0; slot < k_grain_corners; ++slot) fill_diagonals(g, slot, corners[slot]);
+  const auto all_centres = [&]<std::size_t... centres>(std::index_sequence<centres...> /*eight*/) {
+    (add_bonds_of_centre<centres>(p, g, corners, dt, out, losses), ...);
+  };
+  all_centres(std::make_index_sequence<k_grain_centres>{});
 }
 
 namespace {
 
-/// Motion of slot pair (i, j) of one lane.
+/// Motion of the pair of balls at a and b (ball_at).
 BondMotion motion_of(const GrainBlock& g, std::size_t a, std::size_t b) {
   return {load3(g.x, g.y, g.z, b) - load3(g.x, g.y, g.z, a), load3(g.vx, g.vy, g.vz, b) - load3(g.vx, g.vy, g.vz, a),
           load3(g.wx, g.wy, g.wz, a), load3(g.wx, g.wy, g.wz, b)};
@@ -81,8 +134,8 @@ BondMotion motion_of(const GrainBlock& g, std::size_t a, std::size_t b) {
 
 /// A pair whose bond is gone: an ordinary Hertz contact with its shear history in the first three places.
 template <HertzOptions options>
-void add_broken_pair(const Simulation& s, const BondMotion& m, double* history, std::size_t a, std::size_t b,
-                     std::size_t lane, BlockForces& out, BlockLosses& losses) {
+void add_broken_pair(const Simulation& s, const BondMotion& m, double* history, const SlotPair& pair, std::size_t lane,
+                     BlockForces& out, BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
   const double r = s.scene.rubber_ball_radius;
   const HertzGeometry geometry = hertz_geometry(
@@ -93,8 +146,8 @@ void add_broken_pair(const Simulation& s, const BondMotion& m, double* history, 
   history[2 * w] = f.shear.z;
   const Vec3 force = f.shear_total - geometry.normal * f.normal_total;
   const Vec3 couple = cross(geometry.normal, f.shear_total);
-  add_load(out, a, force, couple * geometry.lever_i);
-  add_load(out, b, -force, couple * geometry.lever_j);
+  add_load(out, load_at(pair.i, lane), force, couple * geometry.lever_i);
+  add_load(out, load_at(pair.j, lane), -force, couple * geometry.lever_j);
   losses.slip[lane] += f.slip_work;
   losses.dashpot[lane] += f.dashpot_work;
 }
@@ -108,8 +161,7 @@ void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLo
     double* stored = s.grain_history.bond.data() + (block * k_grain_bonds + k) * 6 * w;
     unsigned char* broken = s.grain_history.bond_is_broken.data() + (block * k_grain_bonds + k) * w;
     for (std::size_t lane = 0; lane < w; ++lane) {
-      const std::size_t a = pair.i * w + lane, b = pair.j * w + lane;
-      const BondMotion m = motion_of(g, a, b);
+      const BondMotion m = motion_of(g, ball_at(pair.i, lane), ball_at(pair.j, lane));
       double* h = stored + lane;
       if (broken[lane] == 0) {
         BondHistory history{{h[0], h[w], h[2 * w]}, {h[3 * w], h[4 * w], h[5 * w]}};
@@ -118,15 +170,15 @@ void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLo
         if (!breaks) {
           h[0] = history.shear.x, h[w] = history.shear.y, h[2 * w] = history.shear.z;
           h[3 * w] = history.moment.x, h[4 * w] = history.moment.y, h[5 * w] = history.moment.z;
-          add_load(out, a, f.force, f.couple + f.moment);
-          add_load(out, b, -f.force, f.couple - f.moment);
+          add_load(out, load_at(pair.i, lane), f.force, f.couple + f.moment);
+          add_load(out, load_at(pair.j, lane), -f.force, f.couple - f.moment);
           losses.dashpot[lane] += f.dashpot_power * s.dt;
           continue;
         }
         broken[lane] = 1;
         for (std::size_t c = 0; c < 6; ++c) h[c * w] = 0.0;
       }
-      add_broken_pair<options>(s, m, h, a, b, lane, out, losses);
+      add_broken_pair<options>(s, m, h, pair, lane, out, losses);
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dem4grm/core/blocks.hpp"
+#include "dem4grm/core/registers.hpp"
 #include "dem4grm/engine/grain_block.hpp"
 #include "dem4grm/engine/hertz_dispatch.hpp"
 #include "dem4grm/laws/local_damping.hpp"
@@ -12,31 +13,78 @@ namespace dem {
 
 namespace {
 
+constexpr int k_references_ahead = 16;
+
 /// Adds the contact rows that act on a block, in row order.
-void gather_contacts(const Simulation& s, std::size_t block, BlockForces& out) {
+///   force = sign (F_s - n F_n),   torque = lever n x F_s     (ContactTable)
+/// The fourth lanes hold what is left of normal force and overlap, and nobody reads them.
+template <bool dashpots>
+void gather_contacts(const Simulation& s, std::size_t block, ContactLoads& out) {
   const ContactTable& t = s.contacts;
+  const double radius = s.scene.rubber_ball_radius;
+  const ContactState* const states = t.state.data();
+  const int* const rows = s.references.row.data();
+  const int* const places = s.references.place.data();
   const int end = s.references.start[block + 1];
   for (int k = s.references.start[block]; k < end; ++k) {
-    const auto row = static_cast<std::size_t>(s.references.row[static_cast<std::size_t>(k)]);
-    const int reference = s.references.place[static_cast<std::size_t>(k)];
-    const bool second = (reference & ContactReferences::k_second) != 0;
-    const auto place = static_cast<std::size_t>(reference & ~ContactReferences::k_second);
-    const double sign = second ? -1.0 : 1.0;
-    const double lever = second ? t.lever_j[row] : t.lever_i[row];
-    add_load(out, place, t.force(row) * sign, Vec3{t.couple_x[row], t.couple_y[row], t.couple_z[row]} * lever);
+    if (k + k_references_ahead < end) __builtin_prefetch(states + rows[k + k_references_ahead]);
+    const auto row = static_cast<std::size_t>(rows[k]);
+    const ContactState& contact = states[row];
+    const double sign = (places[k] & ContactReferences::k_second) != 0 ? -1.0 : 1.0;
+    const double lever = radius - 0.5 * contact.overlap;
+    const Four n = load_four(&contact.normal.x);
+    Four shear = load_four(&contact.shear.x);
+    if constexpr (dashpots) shear += Four{t.damping_x[row], t.damping_y[row], t.damping_z[row], 0.0};
+    const Four force = (shear - n * contact.normal_force) * sign;
+    const Four couple = __builtin_shufflevector(n, n, 1, 2, 0, 3) * __builtin_shufflevector(shear, shear, 2, 0, 1, 3) -
+                        __builtin_shufflevector(n, n, 2, 0, 1, 3) * __builtin_shufflevector(shear, shear, 1, 2, 0, 3);
+    double* to = out.value[places[k] & ~ContactReferences::k_second];
+    add_four(to, force);
+    add_four(to + 4, couple * lever);
   }
 }
 
-/// Bit l is set when lane l of the pair is closer than its two radii.
-unsigned touching_lanes(const GrainBlock& g, std::size_t i, std::size_t j, double reach2) {
-  unsigned char touches[k_lanes];
-  unsigned any = 0;
+/// Begins the loads of all balls with those of their contacts, W balls at a time.
+void begin_loads(const ContactLoads& contacts, BlockForces& out) {
+  for (std::size_t slot = 0; slot < k_grain_balls; ++slot) {
+    const auto* of_slot = contacts.value + slot * k_lanes;
+    double* to = out.value + load_at(slot, 0);
+    if constexpr (k_lanes == 8) {
+      Eight v[8];
+      for (std::size_t lane = 0; lane < 8; ++lane) v[lane] = load_eight(of_slot[lane]);
+      transpose(v);
+      for (std::size_t c = 0; c < 3; ++c) store_eight(to + c * 8, v[c]);
+      for (std::size_t c = 3; c < 6; ++c) store_eight(to + c * 8, v[c + 1]);
+    } else {
+      for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+        for (std::size_t c = 0; c < 3; ++c) to[c * k_lanes + lane] = of_slot[lane][c];
+        for (std::size_t c = 3; c < 6; ++c) to[c * k_lanes + lane] = of_slot[lane][c + 1];
+      }
+    }
+  }
+}
+
+/// Squared distance of a pair in every lane.
+DEM_INLINE void squared_distances(const GrainBlock& g, std::size_t i, std::size_t j, double* d2) {
+#pragma omp simd
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
     const Vec3 d = load3(g.x, g.y, g.z, j + lane) - load3(g.x, g.y, g.z, i + lane);
-    touches[lane] = dot(d, d) < reach2 ? 1 : 0;
+    d2[lane] = dot(d, d);
   }
-  for (std::size_t lane = 0; lane < k_lanes; ++lane) any |= static_cast<unsigned>(touches[lane]) << lane;
-  return any;
+}
+
+DEM_INLINE bool any_below(const double* values, double limit) {
+  std::int64_t any = 0;
+#pragma omp simd reduction(| : any)
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) any |= values[lane] < limit ? 1 : 0;
+  return any != 0;
+}
+
+/// Bit l is set when value l is below the limit.
+unsigned char lanes_below(const double* values, double limit) {
+  unsigned bits = 0;
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) bits |= (values[lane] < limit ? 1U : 0U) << lane;
+  return static_cast<unsigned char>(bits);
 }
 
 /// Hertz-Mindlin contact of the 66 second-neighbour pairs. A pair that is open in all lanes costs only its distance
@@ -48,11 +96,13 @@ void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g
   const double r = s.scene.rubber_ball_radius, reach2 = 4.0 * r * r, dt = s.dt;
   const HertzParameters p = s.second_neighbour;
   for (std::size_t q = 0; q < k_grain_second_neighbours; ++q) {
-    const std::size_t i = k_second_neighbours_of_grain[q].i * w, j = k_second_neighbours_of_grain[q].j * w;
+    const SlotPair pair = k_second_neighbours_of_grain[q];
+    const std::size_t i = ball_at(pair.i, 0), j = ball_at(pair.j, 0);
     unsigned char& had = s.grain_history.second_neighbour_touches[block * k_grain_second_neighbours + q];
-    const unsigned touching = touching_lanes(g, i, j, reach2);
-    if (touching == 0 && had == 0) continue;
-    had = static_cast<unsigned char>(touching);
+    alignas(64) double d2[k_lanes];
+    squared_distances(g, i, j, d2);
+    if (had == 0 && !any_below(d2, reach2)) continue;
+    had = lanes_below(d2, reach2);
     double* __restrict h =
         s.grain_history.second_neighbour_shear.data() + (block * k_grain_second_neighbours + q) * 3 * w;
 #pragma omp simd
@@ -72,10 +122,10 @@ void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g
       h[2 * w + lane] = f.shear.z;
       const Vec3 force = f.shear_total - geometry.normal * f.normal_total;
       const Vec3 couple = cross(geometry.normal, f.shear_total);
-      add_load(out, a, force, couple * geometry.lever_i);
-      add_load(out, b, -force, couple * geometry.lever_j);
+      add_load(out, load_at(pair.i, lane), force, couple * geometry.lever_i);
+      add_load(out, load_at(pair.j, lane), -force, couple * geometry.lever_j);
       losses.slip[lane] += f.slip_work;
-      losses.dashpot[lane] += f.dashpot_work;
+      if constexpr (options.dashpots) losses.dashpot[lane] += f.dashpot_work;
     }
   }
 }
@@ -89,12 +139,12 @@ double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, co
   alignas(64) double top[k_lanes] = {};
   alignas(64) double lost[k_lanes] = {};
   for (std::size_t slot = 0; slot < k_grain_balls; ++slot) {
-    const std::size_t base = slot * k_lanes;
 #pragma omp simd
     for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-      const std::size_t k = base + lane;
-      const Vec3 force{load.value[0][k], load.value[1][k], load.value[2][k]};
-      const Vec3 torque{load.value[3][k], load.value[4][k], load.value[5][k]};
+      const std::size_t k = ball_at(slot, lane);
+      const double* of_ball = load.value + load_at(slot, lane);
+      const Vec3 force{of_ball[0], of_ball[k_lanes], of_ball[2 * k_lanes]};
+      const Vec3 torque{of_ball[3 * k_lanes], of_ball[4 * k_lanes], of_ball[5 * k_lanes]};
       const Vec3 v = load3(g.vx, g.vy, g.vz, k), w = load3(g.wx, g.wy, g.wz, k);
       const Vec3 damped_force = locally_damped(force, v, alpha), damped_torque = locally_damped(torque, w, alpha);
       const double per_mass = inverse_mass[lane] * dt;
@@ -109,7 +159,7 @@ double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, co
       g.x[k] += new_v.x * dt;
       g.y[k] += new_v.y * dt;
       g.z[k] += new_v.z * dt;
-      const Quaternion q = turned({g.qw[k], g.qx[k], g.qy[k], g.qz[k]}, new_w, dt);
+      const Quaternion q = turned_a_little({g.qw[k], g.qx[k], g.qy[k], g.qz[k]}, new_w, dt);
       g.qw[k] = q.w;
       g.qx[k] = q.x;
       g.qy[k] = q.y;
@@ -130,9 +180,11 @@ double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, co
 template <HertzOptions options>
 void advance_block(Simulation& s, std::size_t block) {
   BlockForces load;
+  ContactLoads contacts;
   BlockLosses losses;
   const GrainBlock g = grain_block(s.balls, block);
-  gather_contacts(s, block, load);
+  gather_contacts<options.dashpots>(s, block, contacts);
+  begin_loads(contacts, load);
   add_second_neighbours<options>(s, block, g, load, losses);
   if (s.scene.bond.form == BondForm::incremental) {
     add_incremental_bonds(s, block, load, losses);

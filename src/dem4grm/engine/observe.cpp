@@ -101,7 +101,7 @@ OverlapReport worst_overlap(const Simulation& s) {
   for (std::size_t c = 0; c < t.wall_pairs.size(); ++c) {
     const std::size_t row = t.n_pair_rows() + c;
     if (norm(t.force(row)) == 0.0) continue;
-    const double relative = 2.0 * (t.radius_i[row] - t.lever_i[row]) / t.radius_i[row];
+    const double relative = t.state[row].overlap / t.radius_i[row];
     if (relative > out.largest) {
       out.largest = relative;
       out.ball_i = first_of(t.wall_pairs[c]);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dem4grm/core/error.hpp"
@@ -61,15 +62,15 @@ Simulation::Simulation(const Scene& description) : scene(description), walls(des
   block_top_speed2.assign(
       static_cast<std::size_t>(balls.n_blocks) + (clumps.clumps.size() + k_clump_block - 1) / k_clump_block, 0.0);
   double smallest = 1e300;
-  for (int id = 0; id < balls.n_balls(); ++id) {
-    smallest = std::min(smallest, balls.radius[static_cast<std::size_t>(balls.index_of_id(id))]);
-  }
-  skin = 0.2 * smallest;
+  for (int id = 0; id < balls.n_balls(); ++id) smallest = std::min(smallest, balls.radius_of_id(id));
+  margins.least = 0.01 * smallest;
+  margins.largest = 2.0 * smallest;
 }
 
 void Simulation::place_grains() {
   constexpr std::size_t w = k_lanes;
   const double r = scene.rubber_ball_radius, a = k_grain_lattice * r;
+  balls.rubber_radius = r;
   rubber_ball_mass = ball_mass(r, scene.rubber.density);
   bond = bond_parameters(describe_bond(scene, rubber_ball_mass));
   const MixedElastic mixed = mix(elastic(scene.rubber), elastic(scene.rubber));
@@ -104,13 +105,9 @@ void Simulation::place_grains() {
     lane_inverse_mass[static_cast<std::size_t>(g)] = real ? 1.0 / rubber_ball_mass : 0.0;
     const Frame frame = frame_of(pose.orientation);
     for (int slot = 0; slot < k_grain_balls; ++slot) {
-      const auto i = static_cast<std::size_t>(BallStore::rubber_index(g, slot));
-      balls.set_position(static_cast<int>(i), pose.position + to_space(frame, grain_site(slot) * a));
-      balls.radius[i] = r;
-      balls.qw[i] = pose.orientation.w;
-      balls.qx[i] = pose.orientation.x;
-      balls.qy[i] = pose.orientation.y;
-      balls.qz[i] = pose.orientation.z;
+      const int i = BallStore::rubber_index(g, slot);
+      balls.set_position(i, pose.position + to_space(frame, grain_site(slot) * a));
+      balls.set_orientation(i, pose.orientation);
       if (!real) continue;
       const auto id = static_cast<std::size_t>(g * k_grain_balls + slot);
       body_of[id] = g;
@@ -146,7 +143,7 @@ void Simulation::place_clumps() {
       clumps.pebble_offset.push_back(offset);
       clumps.clump_of_pebble.push_back(static_cast<int>(c));
       balls.set_position(i, body.position + to_space(frame, offset));
-      balls.radius[static_cast<std::size_t>(i)] = p.radius * d;
+      balls.pebble_radius[static_cast<std::size_t>(pebble)] = p.radius * d;
       body_of[id] = balls.n_grains + static_cast<int>(c);
       owner_of[id] = balls.n_blocks + static_cast<int>(c);
       place_of[id] = i;
@@ -156,6 +153,12 @@ void Simulation::place_clumps() {
     clumps.clumps.push_back(body);
   }
   ledger.clump_damping.assign(clumps.clumps.size(), 0.0);
+}
+
+std::size_t Simulation::speed_block_of(int id) const {
+  const auto owner = static_cast<std::size_t>(owner_of[static_cast<std::size_t>(id)]);
+  const auto rubber_blocks = static_cast<std::size_t>(balls.n_blocks);
+  return owner < rubber_blocks ? owner : rubber_blocks + (owner - rubber_blocks) / k_clump_block;
 }
 
 Material Simulation::material_of_ball(int id) const {
@@ -195,8 +198,7 @@ HertzParameters Simulation::contact_parameters(int ball_i, int ball_j, int wall)
     const int c = clumps.clump_of_pebble[static_cast<std::size_t>(id - balls.n_rubber_balls())];
     return clumps.clumps[static_cast<std::size_t>(c)].mass;
   };
-  const double ri = balls.radius[static_cast<std::size_t>(balls.index_of_id(ball_i))];
-  const double rj = at_wall ? 0.0 : balls.radius[static_cast<std::size_t>(balls.index_of_id(ball_j))];
+  const double ri = balls.radius_of_id(ball_i), rj = at_wall ? 0.0 : balls.radius_of_id(ball_j);
   HertzParameters p;
   p.hertz = hertz_coefficient(mixed, ri, rj);
   p.shear_ratio = mindlin_ratio(mixed);
@@ -219,38 +221,44 @@ void Simulation::set_friction(const FrictionTable& table) {
 }
 
 void Simulation::reset_velocities() {
-  for (auto* a : {&balls.vx, &balls.vy, &balls.vz, &balls.wx, &balls.wy, &balls.wz}) a->fill(0.0);
+  for (int id = 0; id < balls.n_balls(); ++id) {
+    const int i = balls.index_of_id(id);
+    balls.set_velocity(i, {});
+    balls.set_spin(i, {});
+  }
   for (Clump& c : clumps.clumps) c.velocity = c.angular_momentum = c.spin = {};
 }
 
 void Simulation::rebuild_candidates() {
   const auto n = static_cast<std::size_t>(balls.n_balls());
   for (auto& a : built_at) a.resize(n);
-  std::vector<double> radius(n);
+  choose_margins(*this);
+  std::vector<double> reach(n);  // radius and margin
   for (std::size_t id = 0; id < n; ++id) {
     const int i = balls.index_of_id(static_cast<int>(id));
     const Vec3 p = balls.position(i);
     built_at[0][id] = p.x;
     built_at[1][id] = p.y;
     built_at[2][id] = p.z;
-    radius[id] = balls.radius[static_cast<std::size_t>(i)];
+    reach[id] = balls.radius_of_id(static_cast<int>(id)) + margins.margin[speed_block_of(static_cast<int>(id))];
   }
-  const SearchBalls view{built_at[0], built_at[1], built_at[2], radius, body_of};
-  contacts.replace(find_pairs(view, skin), find_wall_pairs(view, walls, skin));
+  const SearchBalls view{built_at[0], built_at[1], built_at[2], reach, body_of};
+  contacts.replace(find_pairs(view, 0.0), find_wall_pairs(view, walls, margins.wall_margin), balls.n_rubber_balls());
   prepare_rows();
-  travel = wall_travel = 0.0;
   candidates_valid = true;
   ++rebuilds;
 }
 
 void Simulation::prepare_rows() {
-  const auto radius_of = [&](int ball) { return balls.radius[static_cast<std::size_t>(balls.index_of_id(ball))]; };
   const bool dashpots = scene.contact.normal_damping_ratio > 0.0 || scene.contact.shear_damping_ratio > 0.0;
   contacts.normal_dashpot.resize(dashpots ? contacts.n_rows() : 0);
   contacts.shear_dashpot.resize(dashpots ? contacts.n_rows() : 0);
+  for (auto* a : {&contacts.damping_x, &contacts.damping_y, &contacts.damping_z}) {
+    a->resize(dashpots ? contacts.n_rows() : 0);
+  }
   const auto fill = [&](std::size_t row, int ball, const HertzParameters& p) {
     contacts.index_i[row] = balls.index_of_id(ball);
-    contacts.radius_i[row] = radius_of(ball);
+    contacts.radius_i[row] = balls.radius_of_id(ball);
     contacts.hertz[row] = p.hertz;
     contacts.shear_ratio[row] = p.shear_ratio;
     contacts.friction[row] = p.friction;
@@ -259,11 +267,12 @@ void Simulation::prepare_rows() {
       contacts.shear_dashpot[row] = p.shear_dashpot;
     }
   };
+  contacts.between_rubber_balls = balls.n_grains > 0 ? contact_parameters(0, 0, -1) : HertzParameters{};
   for (std::size_t c = 0; c < contacts.n_pairs(); ++c) {
     const int i = first_of(contacts.pairs[c]), j = second_of(contacts.pairs[c]);
-    fill(c, i, contact_parameters(i, j, -1));
+    fill(c, i, c < contacts.n_rubber_pairs ? contacts.between_rubber_balls : contact_parameters(i, j, -1));
     contacts.index_j[c] = balls.index_of_id(j);
-    contacts.radius_j[c] = radius_of(j);
+    contacts.radius_j[c] = balls.radius_of_id(j);
   }
   wall_group.clear();
   for (std::size_t c = 0; c < contacts.wall_pairs.size(); ++c) {
@@ -273,6 +282,13 @@ void Simulation::prepare_rows() {
     if (c == 0 || first_of(key) != first_of(contacts.wall_pairs[c - 1])) wall_group.push_back(static_cast<int>(c));
   }
   wall_group.push_back(static_cast<int>(contacts.wall_pairs.size()));
+  wall_block.clear();
+  for (int id = 0; id < balls.n_balls() + k_wall_block; id += k_wall_block) {
+    const auto end = std::partition_point(wall_group.begin(), wall_group.end() - 1, [&](int row) {
+      return first_of(contacts.wall_pairs[static_cast<std::size_t>(row)]) < id;
+    });
+    wall_block.push_back(static_cast<int>(end - wall_group.begin()));
+  }
   for (std::size_t g = 0; g + 1 < wall_group.size(); ++g) {
     require(wall_group[g + 1] - wall_group[g] <= k_most_walls_per_ball,
             "a ball is near more walls than the wall stage holds");

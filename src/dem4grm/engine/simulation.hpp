@@ -4,8 +4,8 @@
 // Order of a step (step.cpp): candidates - ball contacts - wall contacts - rubber grains - clumps - walls. Positions
 // belong to full steps, velocities to half steps (leapfrog); contact laws see the positions of the full step and the
 // velocities that led there. Every stage runs over blocks of fixed size, every sum has a fixed order: the bits do not
-// depend on the number of threads or on the pack width. A list of candidates that was built at another time changes no
-// force on a grain, but the last bits of sums over many wall contacts and of works.
+// depend on the number of threads, on the pack width or on when the list of candidates was built; only the last bits of
+// slip and dashpot works do depend on the list.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "dem4grm/core/aligned_array.hpp"
+#include "dem4grm/engine/candidate_margins.hpp"
 #include "dem4grm/engine/scene.hpp"
 #include "dem4grm/grains/ball_store.hpp"
 #include "dem4grm/grains/clump_store.hpp"
@@ -100,6 +101,8 @@ class Simulation {
   [[nodiscard]] int n_bodies() const { return balls.n_grains + static_cast<int>(clumps.clumps.size()); }
   /// Body of a ball: grains first, then clumps.
   [[nodiscard]] int body_of_ball(int id) const { return body_of[static_cast<std::size_t>(id)]; }
+  /// Place of the block of a ball in block_top_speed2.
+  [[nodiscard]] std::size_t speed_block_of(int id) const;
   /// "rubber grain 12, ball 3" or "clump 7, pebble 1".
   [[nodiscard]] std::string name_of_ball(int id) const;
   /// Constants of the contact of two balls, or of a ball and a wall when wall >= 0.
@@ -126,14 +129,13 @@ class Simulation {
   double time = 0.0;  ///< s
   std::int64_t steps = 0;
   std::int64_t rebuilds = 0;
-  double skin = 0.0;    ///< m
-  double travel = 0.0;  ///< m, bound of the displacement of any ball plus that of any wall since the list was built
-  double wall_travel = 0.0;  ///< m, path of the fastest wall since the list was built
+  CandidateMargins margins;
   bool candidates_valid = false;
   std::vector<double> scratch_slip, scratch_dashpot;  ///< partial sums of one stage
   std::vector<WallReaction> scratch_reactions;
   std::vector<double> block_top_speed2;         ///< [n_blocks + clump blocks] m2/s2
-  std::vector<int> wall_group;                  ///< first wall row of every touching ball, and the end
+  std::vector<int> wall_group;                  ///< first wall row of every ball near a wall, and the end
+  std::vector<int> wall_block;                  ///< first group of every block of k_wall_block ball ids, and the end
   std::array<std::vector<double>, 3> built_at;  ///< [n_balls] positions when the list was built, m
   std::vector<int> body_of;                     ///< [n_balls]
   std::vector<int> owner_of, place_of;          ///< [n_balls] see ContactReferences
@@ -153,6 +155,9 @@ struct BondReading {
 };
 BondReading read_bond(const Simulation& s, int grain, int bond_index);
 
+/// Sets the margins of the next list of candidates from the present speeds.
+void choose_margins(Simulation& s);
+
 // The stages of a step, in order.
 void refresh_candidates(Simulation& s);
 void evaluate_ball_contacts(Simulation& s);
@@ -164,7 +169,11 @@ void move_walls(Simulation& s);
 /// Largest number of walls that one ball may be near at a time.
 inline constexpr int k_most_walls_per_ball = 16;
 
+/// Forces on walls are summed over blocks of so many ball ids, whatever balls are listed: a list of candidates that was
+/// built at another time gives the same bits.
+inline constexpr int k_wall_block = 2048;
+
 /// Number of clumps that one block of advance_clumps handles.
-inline constexpr std::size_t k_clump_block = 64;
+inline constexpr std::size_t k_clump_block = 8;
 
 }  // namespace dem

@@ -9,20 +9,8 @@ namespace dem {
 namespace {
 
 void exchange_balls(StateArchive& archive, BallStore& b) {
-  archive.exchange_fixed("x", b.x.span());
-  archive.exchange_fixed("y", b.y.span());
-  archive.exchange_fixed("z", b.z.span());
-  archive.exchange_fixed("vx", b.vx.span());
-  archive.exchange_fixed("vy", b.vy.span());
-  archive.exchange_fixed("vz", b.vz.span());
-  archive.exchange_fixed("wx", b.wx.span());
-  archive.exchange_fixed("wy", b.wy.span());
-  archive.exchange_fixed("wz", b.wz.span());
-  archive.exchange_fixed("qw", b.qw.span());
-  archive.exchange_fixed("qx", b.qx.span());
-  archive.exchange_fixed("qy", b.qy.span());
-  archive.exchange_fixed("qz", b.qz.span());
-  archive.exchange_fixed("radius", b.radius.span());
+  archive.exchange_fixed("state", b.state.span());
+  archive.exchange_fixed("pebble_radius", std::span(b.pebble_radius));
 }
 
 constexpr std::size_t k_clump_numbers = 16;
@@ -51,31 +39,33 @@ void exchange_clumps(StateArchive& archive, ClumpStore& store) {
 /// Candidates with history and last forces; constants of the rows follow from the scene.
 void exchange_contacts(StateArchive& archive, ContactTable& t) {
   archive.exchange("pairs", t.pairs);
+  archive.exchange("rubber_pairs", t.n_rubber_pairs);
   archive.exchange("wall_pairs", t.wall_pairs);
-  archive.exchange("shear_x", t.shear_x);
-  archive.exchange("shear_y", t.shear_y);
-  archive.exchange("shear_z", t.shear_z);
-  archive.exchange("force_x", t.force_x);
-  archive.exchange("force_y", t.force_y);
-  archive.exchange("force_z", t.force_z);
-  archive.exchange("couple_x", t.couple_x);
-  archive.exchange("couple_y", t.couple_y);
-  archive.exchange("couple_z", t.couple_z);
-  archive.exchange("lever_i", t.lever_i);
-  archive.exchange("lever_j", t.lever_j);
+  if (archive.is_loading()) t.state.resize(t.n_rows());
+  // A row of the table is eight doubles.
+  archive.exchange_fixed("state", std::span(&t.state.data()->normal.x, t.state.size() * k_contact_numbers));
+  archive.exchange("damping_x", t.damping_x);
+  archive.exchange("damping_y", t.damping_y);
+  archive.exchange("damping_z", t.damping_z);
   if (archive.is_loading()) t.clear_constants();
-  for (const auto* a : {&t.shear_x, &t.shear_y, &t.shear_z, &t.force_x, &t.force_y, &t.force_z, &t.couple_x,
-                        &t.couple_y, &t.couple_z, &t.lever_i, &t.lever_j}) {
-    if (a->size() != t.n_rows()) throw IoError("the saved state has a contact table of unequal columns");
-  }
 }
 
-/// The list itself is kept, not built anew: sums over rows run in blocks of it, and with another list the last bits of
-/// wall forces and works would differ.
+/// The list itself is kept, not built anew: slip and dashpot works are summed over blocks of it, and with another list
+/// their last bits would differ.
 void exchange_search(StateArchive& archive, Simulation& s) {
+  CandidateMargins& m = s.margins;
   archive.exchange("is_valid", s.candidates_valid);
-  archive.exchange("travel", s.travel);
-  archive.exchange("wall_travel", s.wall_travel);
+  archive.exchange("horizon", m.horizon);
+  archive.exchange("tunes", m.tunes);
+  archive.exchange("least", m.least);
+  archive.exchange("largest", m.largest);
+  archive.exchange("margin", m.margin);
+  archive.exchange("travel", m.travel);
+  archive.exchange("wall_margin", m.wall_margin);
+  archive.exchange("wall_travel", m.wall_travel);
+  archive.exchange("is_used_up", m.is_used_up);
+  archive.exchange("built_at_step", m.built_at_step);
+  archive.exchange_fixed("top_speed2", std::span(s.block_top_speed2));
   archive.exchange("built_at_x", s.built_at[0]);
   archive.exchange("built_at_y", s.built_at[1]);
   archive.exchange("built_at_z", s.built_at[2]);
@@ -126,7 +116,6 @@ void exchange_settings(StateArchive& archive, Simulation& s) {
   archive.exchange("time", s.time);
   archive.exchange("steps", s.steps);
   archive.exchange("rebuilds", s.rebuilds);
-  archive.exchange("skin", s.skin);
 }
 
 }  // namespace

@@ -21,25 +21,6 @@ void Simulation::step() {
   ++steps;
 }
 
-void refresh_candidates(Simulation& s) {
-  if (s.candidates_valid && 2.0 * s.travel < s.skin) return;
-  if (s.candidates_valid) {
-    // The bound sums the top speeds of all steps; the true displacement since the last build is often smaller.
-    double largest2 = 0.0;
-    for (std::size_t id = 0; id < s.built_at[0].size(); ++id) {
-      const Vec3 d = s.balls.position(s.balls.index_of_id(static_cast<int>(id))) -
-                     Vec3{s.built_at[0][id], s.built_at[1][id], s.built_at[2][id]};
-      largest2 = std::max(largest2, dot(d, d));
-    }
-    const double largest = std::sqrt(largest2) + s.wall_travel;
-    if (2.0 * largest < 0.7 * s.skin) {
-      s.travel = largest;
-      return;
-    }
-  }
-  s.rebuild_candidates();
-}
-
 namespace {
 
 /// Sets the velocity of the servo plate along its normal; other components stay as prescribed.
@@ -57,8 +38,6 @@ void steer_plate(Simulation& s) {
 
 void move_walls(Simulation& s) {
   steer_plate(s);
-  double fastest2 = 0.0;
-  for (const double v2 : s.block_top_speed2) fastest2 = std::max(fastest2, v2);
   double fastest_wall2 = 0.0;
   for (std::size_t w = 0; w < s.walls.size(); ++w) {
     Wall& wall = s.walls[w];
@@ -68,8 +47,14 @@ void move_walls(Simulation& s) {
     s.last_wall_velocity[w] = wall.velocity;
     fastest_wall2 = std::max(fastest_wall2, dot(wall.velocity, wall.velocity));
   }
-  s.wall_travel += std::sqrt(fastest_wall2) * s.dt;
-  s.travel += (std::sqrt(fastest2) + std::sqrt(fastest_wall2)) * s.dt;
+  CandidateMargins& m = s.margins;
+  m.wall_travel += std::sqrt(fastest_wall2) * s.dt;
+  bool is_used_up = m.wall_travel > m.wall_margin;
+  for (std::size_t b = 0; b < m.travel.size(); ++b) {
+    m.travel[b] += std::sqrt(s.block_top_speed2[b]) * s.dt;
+    is_used_up |= m.travel[b] > m.margin[b];
+  }
+  m.is_used_up = is_used_up;
 }
 
 }  // namespace dem

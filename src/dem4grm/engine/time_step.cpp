@@ -165,21 +165,15 @@ ClumpMatrices clump_matrices(const Simulation& s, std::size_t c) {
   const std::size_t owner = static_cast<std::size_t>(s.balls.n_blocks) + c;
   for (int q = s.references.start[owner]; q < s.references.start[owner + 1]; ++q) {
     const auto row = static_cast<std::size_t>(s.references.row[static_cast<std::size_t>(q)]);
-    const Vec3 f = s.contacts.force(row);
-    if (dot(f, f) == 0.0) continue;
+    if (!(s.contacts.state[row].overlap > 0.0)) continue;
     const int place = s.references.place[static_cast<std::size_t>(q)];
     const bool second = (place & ContactReferences::k_second) != 0;
     const int i = place & ~ContactReferences::k_second;
-    const double overlap = 2.0 * (s.contacts.radius_i[row] - s.contacts.lever_i[row]);
-    const Joint joint =
-        hertz_joint({s.contacts.hertz[row], s.contacts.shear_ratio[row], 0, 0, 0}, std::max(overlap, 0.0));
-    // The normal from the elastic part of the force: against it on i, along it on j.
-    const Vec3 pushing = f - s.contacts.shear(row);
-    const double size = norm(pushing);
-    if (!(size > 0.0)) continue;
-    const Eigen::Vector3d n = eigen(pushing * ((second ? 1.0 : -1.0) / size));
+    const double overlap = s.contacts.state[row].overlap;
+    const Joint joint = hertz_joint({s.contacts.hertz[row], s.contacts.shear_ratio[row], 0, 0, 0}, overlap);
+    const Eigen::Vector3d n = eigen(s.contacts.state[row].normal * (second ? -1.0 : 1.0));
     const Eigen::Vector3d arm =
-        eigen(s.balls.position(i) - body.position) + n * (second ? s.contacts.lever_j[row] : s.contacts.lever_i[row]);
+        eigen(s.balls.position(i) - body.position) + n * (second ? s.contacts.lever_j(row) : s.contacts.lever_i(row));
     Eigen::Matrix<double, 3, 6> b;
     b.leftCols<3>() = Eigen::Matrix3d::Identity() / std::sqrt(body.mass);
     b.rightCols<3>() = -cross_matrix(arm) / std::sqrt(least);
@@ -187,7 +181,7 @@ ClumpMatrices clump_matrices(const Simulation& s, std::size_t c) {
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - along;
     out.stiffness += b.transpose() * (joint.normal * along + joint.shear * across) * b;
     if (!dashpots) continue;
-    const double fourth_root = std::sqrt(std::sqrt(std::max(overlap, 0.0)));
+    const double fourth_root = std::sqrt(std::sqrt(overlap));
     out.damping += b.transpose() * (s.contacts.normal_dashpot[row] * along + s.contacts.shear_dashpot[row] * across) *
                    (fourth_root * b);
   }
@@ -226,7 +220,7 @@ TimeStepLimit expected_clump_limit(const Simulation& s, double stress) {
     const MixedElastic mixed = mix(elastic, elastic);
     double radius = 0.0;
     for (int p = body.first_pebble; p < body.first_pebble + body.n_pebbles; ++p) {
-      radius = std::max(radius, s.balls.radius[static_cast<std::size_t>(s.balls.pebble_index(p))]);
+      radius = std::max(radius, s.balls.pebble_radius[static_cast<std::size_t>(p)]);
     }
     const double force = 10.0 * stress * body.size * body.size;
     const double h = hertz_coefficient(mixed, radius, radius);

@@ -16,7 +16,7 @@ namespace dem {
 
 namespace {
 
-constexpr std::size_t k_groups_per_block = 256;
+constexpr std::size_t k_groups_ahead = 8;
 
 /// One rectangle as the present ball sees it.
 struct Touch {
@@ -28,12 +28,16 @@ struct Touch {
 
 using Touches = std::array<Touch, k_most_walls_per_ball>;
 
+bool touches(const WallView& view, double radius) {
+  return view.distance < radius && (!view.on_face || view.distance > -radius);
+}
+
 /// Decides which of the n touches of one ball count.
 void resolve(const std::vector<Wall>& walls, double radius, Touches& t, int n) {
   const double tolerance = 1e-6 * radius;
   for (int a = 0; a < n; ++a) {
     Touch& edge = t[static_cast<std::size_t>(a)];
-    edge.counts = edge.view.distance < radius && (!edge.view.on_face || edge.view.distance > -radius);
+    edge.counts = touches(edge.view, radius);
     if (!edge.counts) continue;
     for (int b = 0; b < n && edge.counts; ++b) {
       const Touch& other = t[static_cast<std::size_t>(b)];
@@ -62,9 +66,7 @@ void hand_over(ContactTable& c, const Touches& t, int n) {
       if (from.counts || dot(from.view.away, to.view.away) < 0.0) continue;
       const Vec3 f = c.shear(from.row);
       if (!(dot(f, f) > 0.0)) continue;
-      c.shear_x[to.row] = f.x;
-      c.shear_y[to.row] = f.y;
-      c.shear_z[to.row] = f.z;
+      c.state[to.row].shear = f;
       break;
     }
   }
@@ -79,22 +81,34 @@ Vec3 carried_at_wall(const Vec3& f, const Vec3& n, double half_twist) {
   return perpendicular(turned_about_normal(flat * stretch, n, half_twist), n);
 }
 
+/// Starts to load the ball of a row.
+void prefetch_ball(const Simulation& s, std::size_t row) {
+  const double* ball = s.balls.state.data() + s.contacts.index_i[row];
+  for (std::size_t k = 0; k < k_pebble_components; ++k) __builtin_prefetch(ball + k * k_lanes);
+}
+
 struct Works {
   double slip = 0.0, dashpot = 0.0;
 };
 
+void set_damping(ContactTable& c, std::size_t row, const Vec3& f) {
+  c.damping_x[row] = f.x;
+  c.damping_y[row] = f.y;
+  c.damping_z[row] = f.z;
+}
+
 template <HertzOptions options>
-void evaluate_touch(Simulation& s, const Touch& t, WallReaction& reaction, Works& works) {
+void evaluate_touch(Simulation& s, std::size_t row, int wall, const WallView& view, WallReaction& reaction,
+                    Works& works) {
   ContactTable& c = s.contacts;
-  const std::size_t row = t.row;
   const auto i = static_cast<int>(c.index_i[row]);
   const double radius = c.radius_i[row];
-  const Vec3 n = -t.view.away;  // from the ball to the wall
+  const Vec3 n = -view.away;  // from the ball to the wall
   const Vec3 spin = s.balls.spin(i);
-  const Vec3 relative = s.last_wall_velocity[static_cast<std::size_t>(t.wall)] - s.balls.velocity(i);
+  const Vec3 relative = s.last_wall_velocity[static_cast<std::size_t>(wall)] - s.balls.velocity(i);
 
   HertzMotion m;
-  m.overlap = radius - t.view.distance;
+  m.overlap = radius - view.distance;
   m.normal_speed = dot(relative, n);
   m.old_overlap = m.overlap + m.normal_speed * s.dt;
   const double lever = radius - 0.5 * m.overlap;
@@ -105,17 +119,8 @@ void evaluate_touch(Simulation& s, const Touch& t, WallReaction& reaction, Works
                           options.dashpots ? c.shear_dashpot[row] : 0.0};
   const HertzForce f = hertz_mindlin<options>(p, m, s.dt);
   const Vec3 force = f.shear_total - n * f.normal_total;
-  const Vec3 couple = cross(n, f.shear_total);
-  c.shear_x[row] = f.shear.x;
-  c.shear_y[row] = f.shear.y;
-  c.shear_z[row] = f.shear.z;
-  c.force_x[row] = force.x;
-  c.force_y[row] = force.y;
-  c.force_z[row] = force.z;
-  c.couple_x[row] = couple.x;
-  c.couple_y[row] = couple.y;
-  c.couple_z[row] = couple.z;
-  c.lever_i[row] = lever;
+  c.state[row] = {n, f.normal_total, f.shear, m.overlap};
+  if constexpr (options.dashpots) set_damping(c, row, f.shear_total - f.shear);
   reaction.force -= force;
   reaction.stiffness += 1.5 * p.hertz * std::sqrt(m.overlap);
   ++reaction.contacts;
@@ -124,9 +129,20 @@ void evaluate_touch(Simulation& s, const Touch& t, WallReaction& reaction, Works
 }
 
 void clear_row(ContactTable& c, std::size_t row) {
-  for (auto* a : {&c.shear_x, &c.shear_y, &c.shear_z, &c.force_x, &c.force_y, &c.force_z, &c.couple_x, &c.couple_y,
-                  &c.couple_z}) {
-    (*a)[row] = 0.0;
+  c.state[row] = {};
+  if (!c.damping_x.empty()) set_damping(c, row, {});
+}
+
+/// A ball near one rectangle only, as most are.
+template <HertzOptions options>
+void evaluate_lone_touch(Simulation& s, std::size_t row, WallReaction* reactions, Works& works) {
+  ContactTable& c = s.contacts;
+  const auto wall = static_cast<int>(c.index_j[row]);
+  const WallView view = look_at(s.walls[static_cast<std::size_t>(wall)], s.balls.position(c.index_i[row]));
+  if (touches(view, c.radius_i[row])) {
+    evaluate_touch<options>(s, row, wall, view, reactions[wall], works);
+  } else {
+    clear_row(c, row);
   }
 }
 
@@ -149,31 +165,45 @@ void evaluate_ball(Simulation& s, int first, int last, WallReaction* reactions, 
   for (int k = 0; k < n; ++k) {
     const Touch& t = touches[static_cast<std::size_t>(k)];
     if (t.counts) {
-      evaluate_touch<options>(s, t, reactions[t.wall], works);
+      evaluate_touch<options>(s, t.row, t.wall, t.view, reactions[t.wall], works);
     } else {
       clear_row(c, t.row);
     }
   }
 }
 
+/// The balls of one block of ids, in order.
+template <HertzOptions options>
+void evaluate_block(Simulation& s, std::size_t block) {
+  const auto groups = static_cast<std::size_t>(s.wall_block[block + 1]);
+  const std::size_t base = s.contacts.n_pair_rows();
+  WallReaction* reactions = s.scratch_reactions.data() + block * s.walls.size();
+  Works works;
+  for (auto g = static_cast<std::size_t>(s.wall_block[block]); g < groups; ++g) {
+    if (g + k_groups_ahead < groups) {
+      prefetch_ball(s, base + static_cast<std::size_t>(s.wall_group[g + k_groups_ahead]));
+    }
+    const int first = s.wall_group[g], last = s.wall_group[g + 1];
+    if (last - first == 1) {
+      evaluate_lone_touch<options>(s, base + static_cast<std::size_t>(first), reactions, works);
+    } else {
+      evaluate_ball<options>(s, first, last, reactions, works);
+    }
+  }
+  s.scratch_slip[block] = works.slip;
+  s.scratch_dashpot[block] = works.dashpot;
+}
+
 template <HertzOptions options>
 void evaluate(Simulation& s) {
-  const std::size_t groups = s.wall_group.empty() ? 0 : s.wall_group.size() - 1;
-  const std::size_t n_walls = s.walls.size();
+  const std::size_t blocks = s.wall_block.empty() ? 0 : s.wall_block.size() - 1, n_walls = s.walls.size();
   auto& partial = s.scratch_reactions;
-  partial.assign(block_count(groups, k_groups_per_block) * n_walls, WallReaction{});
-  s.scratch_slip.assign(block_count(groups, k_groups_per_block), 0.0);
-  s.scratch_dashpot.assign(s.scratch_slip.size(), 0.0);
-  for_each_block(groups, k_groups_per_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
-    Works works;
-    for (std::size_t g = begin; g < end; ++g) {
-      evaluate_ball<options>(s, s.wall_group[g], s.wall_group[g + 1], partial.data() + block * n_walls, works);
-    }
-    s.scratch_slip[block] = works.slip;
-    s.scratch_dashpot[block] = works.dashpot;
-  });
+  partial.assign(blocks * n_walls, WallReaction{});
+  s.scratch_slip.assign(blocks, 0.0);
+  s.scratch_dashpot.assign(blocks, 0.0);
+  for_each_block(blocks, 1, [&](std::size_t block, std::size_t, std::size_t) { evaluate_block<options>(s, block); });
   std::fill(s.reactions.begin(), s.reactions.end(), WallReaction{});
-  for (std::size_t block = 0; block < s.scratch_slip.size(); ++block) {
+  for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t w = 0; w < n_walls; ++w) {
       const WallReaction& p = partial[block * n_walls + w];
       s.reactions[w].force += p.force;

@@ -1,76 +1,128 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// All balls of a simulation in one structure of arrays: the balls of rubber grains first, then the pebbles of clumps.
+// All balls of a simulation: the balls of rubber grains first, then the pebbles of clumps.
 //
-// Rubber grains are interleaved k_lanes at a time, so that one vector register holds the same slot of k_lanes grains:
-//   index of (grain g, slot s) = ((g / W) * 35 + s) * W + g % W,    W = k_lanes
-// Lanes beyond the last grain hold a resting grain far away; no sum and no output includes them.
+// Balls lie k_lanes = W side by side, so that one vector register holds the same number of W balls; the numbers of a
+// ball follow each other at a distance of W. A ball is named by the *index* of its first number; its component c is
+//   state[index + c W],   index of (grain g, slot s) = ((g / W) * 35 + s) * 13 W + g % W
+//                         index of pebble p          = end of the rubber + (p / W) * 9 W + p % W
+// Thus lane l of a vector holds grain l of a block of W grains, and all that a contact wants to know of a ball is in
+// nine neighbouring cache lines (docs/decisions/0011-memory-layout.md). Lanes beyond the last grain hold a resting grain
+// far away; no sum and no output includes them.
 //
-// Two numbers name a ball and must not be mixed: its *index* is the place in the arrays, its *id* counts the balls
-// without padding (grain * 35 + slot, then pebbles). Lists are ordered by id, so results do not depend on W.
+// Two numbers name a ball and must not be mixed: its *index* and its *id*, which counts the balls without gaps
+// (grain * 35 + slot, then pebbles). Lists are ordered by id, so results do not depend on W.
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "dem4grm/core/aligned_array.hpp"
 #include "dem4grm/core/lanes.hpp"
+#include "dem4grm/core/quaternion.hpp"
 #include "dem4grm/core/vec3.hpp"
 #include "dem4grm/grains/rubber_grain.hpp"
 
 namespace dem {
 
-/// State of the balls, SI units; every array has n_rows() elements. Velocities and spins are those of the last half
-/// step. Orientations are kept for balls of rubber grains only.
+/// Numbers of a ball. Velocities and spins are those of the last half step; only rubber balls have an orientation.
+enum class BallComponent : std::uint8_t {
+  x,  // m
+  y,
+  z,
+  vx,  // m/s
+  vy,
+  vz,
+  wx,  // rad/s, space axes
+  wy,
+  wz,
+  qw,  // unit quaternion
+  qx,
+  qy,
+  qz,
+};
+inline constexpr std::size_t k_rubber_components = 13, k_pebble_components = 9;
+
+/// Distance in memory from a component of a ball to the next one.
+constexpr std::size_t component_offset(BallComponent c) { return static_cast<std::size_t>(c) * k_lanes; }
+
+/// State of the balls, SI units.
 struct BallStore {
   int n_grains = 0;   ///< rubber grains
   int n_blocks = 0;   ///< of k_lanes grains each
   int n_pebbles = 0;  ///< of all clumps
 
-  AlignedArray<double> x, y, z;         ///< m
-  AlignedArray<double> vx, vy, vz;      ///< m/s
-  AlignedArray<double> wx, wy, wz;      ///< rad/s, space axes
-  AlignedArray<double> qw, qx, qy, qz;  ///< rubber balls only
-  AlignedArray<double> radius;          ///< m
+  AlignedArray<double> state;
+  double rubber_radius = 0.0;         ///< m, of every rubber ball
+  std::vector<double> pebble_radius;  ///< [n_pebbles] m
 
   void allocate(int grains, int pebbles) {
     n_grains = grains;
     n_pebbles = pebbles;
-    n_blocks = static_cast<int>((static_cast<std::size_t>(grains) + k_lanes - 1) / k_lanes);
-    for (auto* a : {&x, &y, &z, &vx, &vy, &vz, &wx, &wy, &wz, &radius}) a->resize(static_cast<std::size_t>(n_rows()));
-    for (auto* a : {&qw, &qx, &qy, &qz}) a->resize(static_cast<std::size_t>(n_rubber_rows()));
+    n_blocks = (grains + k_width - 1) / k_width;
+    state.resize(static_cast<std::size_t>(pebble_index((pebbles + k_width - 1) / k_width * k_width)));
+    pebble_radius.resize(static_cast<std::size_t>(pebbles));
   }
 
-  [[nodiscard]] int n_rubber_rows() const { return n_blocks * k_grain_balls * static_cast<int>(k_lanes); }
-  [[nodiscard]] int n_rows() const { return n_rubber_rows() + n_pebbles; }
   [[nodiscard]] int n_rubber_balls() const { return n_grains * k_grain_balls; }
   [[nodiscard]] int n_balls() const { return n_rubber_balls() + n_pebbles; }
 
   static int rubber_index(int grain, int slot) {
-    constexpr int w = static_cast<int>(k_lanes);
-    return ((grain / w) * k_grain_balls + slot) * w + grain % w;
+    return ((grain / k_width) * k_grain_balls + slot) * k_rubber_stride + grain % k_width;
   }
-  [[nodiscard]] int pebble_index(int pebble) const { return n_rubber_rows() + pebble; }
+  [[nodiscard]] int pebble_index(int pebble) const {
+    return first_pebble_index() + pebble / k_width * k_pebble_stride + pebble % k_width;
+  }
   [[nodiscard]] int index_of_id(int id) const {
     if (id >= n_rubber_balls()) return pebble_index(id - n_rubber_balls());
     return rubber_index(id / k_grain_balls, id % k_grain_balls);
   }
 
-  [[nodiscard]] Vec3 position(int index) const { return read(x, y, z, index); }
-  [[nodiscard]] Vec3 velocity(int index) const { return read(vx, vy, vz, index); }
-  [[nodiscard]] Vec3 spin(int index) const { return read(wx, wy, wz, index); }
-  void set_position(int index, const Vec3& p) { write(x, y, z, index, p); }
-  void set_velocity(int index, const Vec3& v) { write(vx, vy, vz, index, v); }
-  void set_spin(int index, const Vec3& w) { write(wx, wy, wz, index, w); }
+  /// Pointer to a component of the ball with index 0; that of another ball is `index` further on.
+  [[nodiscard]] double* component(BallComponent c) { return state.data() + component_offset(c); }
+  [[nodiscard]] const double* component(BallComponent c) const { return state.data() + component_offset(c); }
+  [[nodiscard]] double& at(BallComponent c, int index) { return component(c)[index]; }
+  [[nodiscard]] const double& at(BallComponent c, int index) const { return component(c)[index]; }
+
+  [[nodiscard]] Vec3 position(int index) const { return read(BallComponent::x, index); }
+  [[nodiscard]] Vec3 velocity(int index) const { return read(BallComponent::vx, index); }
+  [[nodiscard]] Vec3 spin(int index) const { return read(BallComponent::wx, index); }
+  /// Of a rubber ball.
+  [[nodiscard]] Quaternion orientation(int index) const {
+    const double* q = component(BallComponent::qw) + index;
+    return {q[0], q[k_lanes], q[2 * k_lanes], q[3 * k_lanes]};
+  }
+  void set_position(int index, const Vec3& p) { write(BallComponent::x, index, p); }
+  void set_velocity(int index, const Vec3& v) { write(BallComponent::vx, index, v); }
+  void set_spin(int index, const Vec3& w) { write(BallComponent::wx, index, w); }
+  void set_orientation(int index, const Quaternion& value) {
+    double* q = component(BallComponent::qw) + index;
+    q[0] = value.w;
+    q[k_lanes] = value.x;
+    q[2 * k_lanes] = value.y;
+    q[3 * k_lanes] = value.z;
+  }
+
+  /// Radius of the ball with that id, m.
+  [[nodiscard]] double radius_of_id(int id) const {
+    const int pebble = id - n_rubber_balls();
+    return pebble < 0 ? rubber_radius : pebble_radius[static_cast<std::size_t>(pebble)];
+  }
 
  private:
-  static Vec3 read(const AlignedArray<double>& a, const AlignedArray<double>& b, const AlignedArray<double>& c, int i) {
-    const auto k = static_cast<std::size_t>(i);
-    return {a[k], b[k], c[k]};
+  static constexpr int k_width = static_cast<int>(k_lanes);
+  static constexpr int k_rubber_stride = static_cast<int>(k_rubber_components * k_lanes);
+  static constexpr int k_pebble_stride = static_cast<int>(k_pebble_components * k_lanes);
+
+  [[nodiscard]] int first_pebble_index() const { return n_blocks * k_grain_balls * k_rubber_stride; }
+  [[nodiscard]] Vec3 read(BallComponent first, int index) const {
+    const double* v = component(first) + index;
+    return {v[0], v[k_lanes], v[2 * k_lanes]};
   }
-  static void write(AlignedArray<double>& a, AlignedArray<double>& b, AlignedArray<double>& c, int i, const Vec3& v) {
-    const auto k = static_cast<std::size_t>(i);
-    a[k] = v.x;
-    b[k] = v.y;
-    c[k] = v.z;
+  void write(BallComponent first, int index, const Vec3& value) {
+    double* v = component(first) + index;
+    v[0] = value.x;
+    v[k_lanes] = value.y;
+    v[2 * k_lanes] = value.z;
   }
 };
 

@@ -25,7 +25,7 @@ void write_balls(const Handle& frame, const Simulation& s) {
     const int index = s.balls.index_of_id(id);
     append(position, s.balls.position(index));
     append(velocity, s.balls.velocity(index));
-    radius.push_back(s.balls.radius[static_cast<std::size_t>(index)]);
+    radius.push_back(s.balls.radius_of_id(id));
     body.push_back(s.body_of_ball(id));
     material.push_back(s.material_of_ball(id));
   }
@@ -81,7 +81,7 @@ void take_contact(ContactColumns& columns, const Simulation& s, std::size_t row,
                   const Vec3& normal) {
   const Vec3 force = s.contacts.force(row);  // on i
   const double along = dot(force, normal);
-  append(columns.point, centre + normal * s.contacts.lever_i[row]);
+  append(columns.point, centre + normal * s.contacts.lever_i(row));
   append(columns.normal, normal);
   columns.normal_force.push_back(-along);
   append(columns.shear_force, force - normal * along);

@@ -45,16 +45,31 @@ inline double dashpot_coefficient(double damping_ratio, double reduced_mass, dou
 ///
 /// formula:  f' = f - (f.n) (s + |s| n) / (|s| + s.n)      with s the old branch vector and n the new unit normal.
 /// It is an exact rotation, so a pair that turns rigidly keeps its shear force to rounding.
+/// The caller gives the reciprocal of the denominator.
+DEM_INLINE Vec3 carried_with_normal(const Vec3& f, const Vec3& old_branch, double old_length, const Vec3& n,
+                                    double reciprocal) {
+  return f - (old_branch + n * old_length) * (dot(f, n) * reciprocal);
+}
 DEM_INLINE Vec3 carried_with_normal(const Vec3& f, const Vec3& old_branch, double old_length, const Vec3& n) {
-  const double along = dot(f, n) / (old_length + dot(old_branch, n));
-  return f - (old_branch + n * old_length) * along;
+  return carried_with_normal(f, old_branch, old_length, n, 1.0 / (old_length + dot(old_branch, n)));
 }
 
 /// Turns f, which is perpendicular to n, about n by the angle 2 atan(t); t is half the spin about n times the time
 /// step.
+///
+/// formula:  f' = [ f (1 - t^2) + 2 t n x f ] / (1 + t^2);  the caller gives the reciprocal of the denominator.
+DEM_INLINE Vec3 turned_about_normal(const Vec3& f, const Vec3& n, double t, double reciprocal) {
+  return (f * (1.0 - t * t) + cross(n, f) * (2.0 * t)) * reciprocal;
+}
 DEM_INLINE Vec3 turned_about_normal(const Vec3& f, const Vec3& n, double t) {
-  const double scale = 1.0 / (1.0 + t * t);
-  return (f * (1.0 - t * t) + cross(n, f) * (2.0 * t)) * scale;
+  return turned_about_normal(f, n, t, 1.0 / (1.0 + t * t));
+}
+
+/// Both, with one division for the two: 1/a = b/(ab), 1/b = a/(ab).
+DEM_INLINE Vec3 carried_and_turned(const Vec3& f, const Vec3& old_branch, double old_length, const Vec3& n, double t) {
+  const double a = old_length + dot(old_branch, n), b = 1.0 + t * t, reciprocal = 1.0 / (a * b);
+  const Vec3 carried = carried_with_normal(f, old_branch, old_length, n, b * reciprocal);
+  return turned_about_normal(carried, n, t, a * reciprocal);
 }
 
 /// What a contact is made of; constant while its two bodies keep their materials and sizes.
@@ -99,47 +114,44 @@ inline constexpr double k_tiny = 1e-300;
 /// One step of the law; `options` is a compile-time choice so that loops pay only for what they use.
 template <HertzOptions options>
 DEM_INLINE HertzForce hertz_mindlin(const HertzParameters& p, const HertzMotion& m, double dt) {
-  HertzForce out;
   const double root = std::sqrt(m.overlap);
   const double k_n = 1.5 * p.hertz * root;
   const double k_s = k_n * p.shear_ratio;
-  out.normal = p.hertz * m.overlap * root;
+  const double normal = p.hertz * m.overlap * root;
 
   Vec3 old = m.carried_shear;
   if constexpr (options.rescale_on_unloading) {
     const double quotient = m.overlap / m.old_overlap;
     old = old * std::sqrt(m.overlap < m.old_overlap ? quotient : 1.0);
   }
-  Vec3 shear = old + m.shear_velocity * (k_s * dt);
-  const double limit = p.friction * out.normal;
-  const double size2 = dot(shear, shear);
+  const Vec3 tried = old + m.shear_velocity * (k_s * dt);
+  const double limit = p.friction * normal;
+  const double size2 = dot(tried, tried);
   const bool slips = size2 > limit * limit;
   // Everything is computed for every lane and then selected: a branch would keep the loop from being vectorised.
-  const double reduction = limit / std::sqrt(size2 + k_tiny);
-  shear = shear * (slips ? reduction : 1.0);
-  // Slip work: mean shear force times the part of the motion that the spring did not take up.
-  const Vec3 slip = m.shear_velocity * dt - (shear - old) * (1.0 / (k_s + k_tiny));
-  const double slip_work = 0.5 * dot(shear + old, slip);
+  const double size = std::sqrt(size2 + k_tiny);
+  const double reciprocal = 1.0 / (size * k_s + k_tiny);  // one division for 1/size and 1/k_s
+  const double reduction = limit * (k_s * reciprocal);
+  const Vec3 shear = tried * (slips ? reduction : 1.0);
+  // Slip work: mean shear force times the part of the motion that the spring did not take up, (tried - kept) / k_s.
+  const double slip_work = 0.5 * dot(shear + old, tried) * ((1.0 - reduction) * (size * reciprocal));
   const double positive = slip_work > 0.0 ? slip_work : 0.0;
   const double counted = slips ? positive : 0.0;
-  out.slip_work = m.overlap > 0.0 ? counted : 0.0;
+  const double slip = m.overlap > 0.0 ? counted : 0.0;
 
-  out.shear = shear;
-  out.shear_total = shear;
-  out.normal_total = out.normal;
+  double total = normal, dashpot_work = 0.0;
+  Vec3 shear_total = shear;
   if constexpr (options.dashpots) {
     const double quarter = std::sqrt(root);
     const double normal_dashpot = p.normal_dashpot * quarter * m.normal_speed;
-    double total = out.normal - normal_dashpot;
+    total = normal - normal_dashpot;
     if constexpr (options.no_tension) total = total < 0.0 ? 0.0 : total;
     double shear_dashpot = p.shear_dashpot * quarter;
     if constexpr (options.no_dashpot_in_slip) shear_dashpot = slips ? 0.0 : shear_dashpot;
-    out.normal_total = total;
-    out.shear_total = shear + m.shear_velocity * shear_dashpot;
-    out.dashpot_work =
-        ((out.normal - total) * m.normal_speed + shear_dashpot * dot(m.shear_velocity, m.shear_velocity)) * dt;
+    shear_total = shear + m.shear_velocity * shear_dashpot;
+    dashpot_work = ((normal - total) * m.normal_speed + shear_dashpot * dot(m.shear_velocity, m.shear_velocity)) * dt;
   }
-  return out;
+  return {normal, total, shear, shear_total, slip, dashpot_work};
 }
 
 /// Two balls as the law sees them, SI units, space axes. Positions at the end of the step, velocities at mid-step.
@@ -183,9 +195,8 @@ DEM_INLINE HertzGeometry hertz_geometry(const HertzPair& p, double dt) {
   g.lever_j = p.radius_j - 0.5 * g.motion.overlap;
   const Vec3 rolling = cross(p.spin_i * (g.lever_i * inverse) + p.spin_j * (g.lever_j * inverse), middle);
   g.motion.shear_velocity = perpendicular(p.relative_velocity - rolling, n);
-  const Vec3 tilted = carried_with_normal(p.shear, old_branch, old_length, n);
   const double half_twist = 0.25 * dt * dot(p.spin_i + p.spin_j, n);
-  g.motion.carried_shear = perpendicular(turned_about_normal(tilted, n, half_twist), n);
+  g.motion.carried_shear = perpendicular(carried_and_turned(p.shear, old_branch, old_length, n, half_twist), n);
   return g;
 }
 

@@ -7,6 +7,14 @@
 
 namespace dem {
 
+/// (1, w dt/2) q: the turned orientation before it is brought back to length one.
+DEM_INLINE Quaternion stretched_turn(const Quaternion& q, const Vec3& spin, double dt) {
+  const double h = 0.5 * dt;
+  const double x = spin.x * h, y = spin.y * h, z = spin.z * h;
+  return {q.w - (x * q.x + y * q.y + z * q.z), q.x + x * q.w + (y * q.z - z * q.y), q.y + y * q.w + (z * q.x - x * q.z),
+          q.z + z * q.w + (x * q.y - y * q.x)};
+}
+
 /// Orientation after a step of constant spin.
 ///
 /// formula:  q' = (1, w dt/2) q / |(1, w dt/2)|      (Cayley map: turns by the angle 2 atan(|w| dt / 2) about w)
@@ -14,11 +22,17 @@ namespace dem {
 /// The contact and bond laws use the same map for the spins, so a pair that turns rigidly sees no relative motion at
 /// all.
 DEM_INLINE Quaternion turned(const Quaternion& q, const Vec3& spin, double dt) {
-  const double h = 0.5 * dt;
-  const double x = spin.x * h, y = spin.y * h, z = spin.z * h;
-  const Quaternion p{q.w - (x * q.x + y * q.y + z * q.z), q.x + x * q.w + (y * q.z - z * q.y),
-                     q.y + y * q.w + (z * q.x - x * q.z), q.z + z * q.w + (x * q.y - y * q.x)};
+  const Quaternion p = stretched_turn(q, spin, dt);
   const double inverse = 1.0 / std::sqrt(p.w * p.w + p.x * p.x + p.y * p.y + p.z * p.z);
+  return {p.w * inverse, p.x * inverse, p.y * inverse, p.z * inverse};
+}
+
+/// The same map for a step that turns by little, as every ball of a rubber grain does: 1/sqrt(1 + e) by its series.
+/// With |w| dt below 0.06 (20,000 rad/s at 3 microseconds) the first term left out, 63/256 e^5, is below 3e-16.
+DEM_INLINE Quaternion turned_a_little(const Quaternion& q, const Vec3& spin, double dt) {
+  const Quaternion p = stretched_turn(q, spin, dt);
+  const double e = p.w * p.w + p.x * p.x + p.y * p.y + p.z * p.z - 1.0;
+  const double inverse = 1.0 + e * (-0.5 + e * (0.375 + e * (-0.3125 + e * 0.2734375)));
   return {p.w * inverse, p.x * inverse, p.y * inverse, p.z * inverse};
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/search/contact_table.hpp"
 
+#include <algorithm>
+
 namespace dem {
 
 namespace {
 
-/// For every new key the position of the same key in the old list, or -1: one pass over two sorted lists.
-void match(const std::vector<PairKey>& old_keys, const std::vector<PairKey>& new_keys, std::size_t old_base,
+/// For every new key the position of the same key in the old list: one pass over two sorted lists.
+void match(std::span<const PairKey> old_keys, std::span<const PairKey> new_keys, std::size_t old_base,
            std::size_t new_base, std::vector<std::ptrdiff_t>& source) {
   std::size_t o = 0;
   for (std::size_t n = 0; n < new_keys.size(); ++n) {
@@ -17,26 +19,38 @@ void match(const std::vector<PairKey>& old_keys, const std::vector<PairKey>& new
   }
 }
 
+/// Brings the values of rows that stay to their new rows; the others become zero.
+template <class Value>
+void carry_over(const std::vector<std::ptrdiff_t>& source, AlignedArray<Value>& values) {
+  AlignedArray<Value> fresh(source.size());
+  for (std::size_t r = 0; r < source.size(); ++r) {
+    if (source[r] >= 0) fresh[r] = values[static_cast<std::size_t>(source[r])];
+  }
+  values.swap(fresh);
+}
+
 }  // namespace
 
-void ContactTable::replace(std::vector<PairKey> new_pairs, std::vector<PairKey> new_wall_pairs) {
+void ContactTable::replace(std::vector<PairKey> new_pairs, std::vector<PairKey> new_wall_pairs, int n_rubber_balls) {
+  const auto others = std::stable_partition(new_pairs.begin(), new_pairs.end(),
+                                            [&](PairKey key) { return second_of(key) < n_rubber_balls; });
+  const auto new_rubber_pairs = static_cast<std::size_t>(others - new_pairs.begin());
   const std::size_t old_pair_rows = n_pair_rows();
   const std::size_t new_pair_rows = (new_pairs.size() + k_contact_batch - 1) / k_contact_batch * k_contact_batch;
   const std::size_t rows = new_pair_rows + new_wall_pairs.size();
   std::vector<std::ptrdiff_t> source(rows, -1);
-  match(pairs, new_pairs, 0, 0, source);
+  const std::span old_keys(pairs), new_keys(new_pairs);
+  match(old_keys.first(n_rubber_pairs), new_keys.first(new_rubber_pairs), 0, 0, source);
+  match(old_keys.subspan(n_rubber_pairs), new_keys.subspan(new_rubber_pairs), n_rubber_pairs, new_rubber_pairs, source);
   match(wall_pairs, new_wall_pairs, old_pair_rows, new_pair_rows, source);
 
   // Forces are carried too, so that a reader of the table between two steps sees the last evaluation.
-  for (auto* a : {&shear_x, &shear_y, &shear_z, &force_x, &force_y, &force_z, &couple_x, &couple_y, &couple_z, &lever_i,
-                  &lever_j}) {
-    AlignedArray<double> fresh(rows);
-    for (std::size_t r = 0; r < rows; ++r) {
-      if (source[r] >= 0) fresh[r] = (*a)[static_cast<std::size_t>(source[r])];
-    }
-    a->swap(fresh);
+  carry_over(source, state);
+  if (!damping_x.empty()) {
+    for (auto* a : {&damping_x, &damping_y, &damping_z}) carry_over(source, *a);
   }
   pairs = std::move(new_pairs);
+  n_rubber_pairs = new_rubber_pairs;
   wall_pairs = std::move(new_wall_pairs);
   clear_constants();
 }

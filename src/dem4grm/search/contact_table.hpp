@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The contacts of a simulation: candidates with their constants, history and last forces, in structure of arrays.
 //
-// Rows [0, n_pair_rows) are ball-ball candidates sorted by (i, j) and padded to a multiple of k_contact_batch; rows
+// Rows [0, n_pair_rows) are ball-ball candidates, padded to a multiple of k_contact_batch: first the pairs of two
+// rubber balls, sorted by (i, j), which all share their constants; then the others, sorted by (i, j). Rows
 // [n_pair_rows, n_rows) are ball-wall candidates sorted by (ball, wall). Each row is evaluated once per step and its
 // force stored; bodies then add up their rows in row order (ContactReferences), so no sum depends on threads. History
 // belongs to the pair of ids: when the list is rebuilt it is carried over by a merge of the two sorted lists.
@@ -13,41 +14,65 @@
 #include "dem4grm/core/aligned_array.hpp"
 #include "dem4grm/core/lanes.hpp"
 #include "dem4grm/core/vec3.hpp"
+#include "dem4grm/laws/hertz_mindlin.hpp"
 #include "dem4grm/search/candidates.hpp"
 
 namespace dem {
 
+/// What a contact remembers and what it does to its bodies: one cache line, because the bodies that add up their contacts
+/// come at them from anywhere, and no more, because a step is as fast as its state fits the cache.
+struct alignas(64) ContactState {
+  Vec3 normal;                ///< unit vector from i to j (or from the ball to the wall)
+  double normal_force = 0.0;  ///< N, with the dashpot; positive when pushing
+  Vec3 shear;                 ///< N, on i, space axes: the history
+  double overlap = 0.0;       ///< m, 0 when apart
+};
+inline constexpr std::size_t k_contact_numbers = sizeof(ContactState) / sizeof(double);
+static_assert(k_contact_numbers == 8);
+
 struct ContactTable {
-  std::vector<PairKey> pairs;       ///< (i, j) ball ids, sorted
+  std::vector<PairKey> pairs;       ///< (i, j) ball ids: pairs of rubber balls, then the others, each part sorted
+  std::size_t n_rubber_pairs = 0;   ///< pairs of two rubber balls
   std::vector<PairKey> wall_pairs;  ///< (ball id, wall), sorted
 
   // Constants of a row while the list lives; padding rows have radius 0 and so never touch.
-  AlignedArray<std::int64_t> index_i, index_j;  ///< places in the ball store (index_j of a wall row is the wall); as
-                                                ///< wide as a double so that a vector of them is as long
-  AlignedArray<double> radius_i, radius_j;      ///< m; radius_j of a wall row is 0
+  AlignedArray<int> index_i, index_j;                  ///< places in the ball store (index_j of a wall row: the wall)
+  AlignedArray<double> radius_i, radius_j;             ///< m; radius_j of a wall row is 0
   AlignedArray<double> hertz, shear_ratio, friction;   ///< laws/hertz_mindlin.hpp
   AlignedArray<double> normal_dashpot, shear_dashpot;  ///< empty when dashpots are off
 
-  // History: shear force on i, N, space axes.
-  AlignedArray<double> shear_x, shear_y, shear_z;
+  HertzParameters between_rubber_balls;  ///< constants of all pairs of rubber balls
 
-  // Result of the last evaluation.
-  AlignedArray<double> force_x, force_y, force_z;     ///< N, on i (on j the opposite)
-  AlignedArray<double> couple_x, couple_y, couple_z;  ///< N, n x F: torque on i is lever_i times this, on j lever_j
-  AlignedArray<double> lever_i, lever_j;              ///< m, from ball centre to contact point
+  AlignedArray<ContactState> state;                      ///< history and result of the last evaluation
+  AlignedArray<double> damping_x, damping_y, damping_z;  ///< N, shear dashpot on i; empty when dashpots are off
 
   [[nodiscard]] std::size_t n_pairs() const { return pairs.size(); }
   [[nodiscard]] std::size_t n_pair_rows() const {
     return (pairs.size() + k_contact_batch - 1) / k_contact_batch * k_contact_batch;
   }
+  /// Rows of whole batches in which every pair is one of two rubber balls.
+  [[nodiscard]] std::size_t n_equal_rows() const { return n_rubber_pairs / k_contact_batch * k_contact_batch; }
   [[nodiscard]] std::size_t n_rows() const { return n_pair_rows() + wall_pairs.size(); }
 
-  [[nodiscard]] Vec3 shear(std::size_t row) const { return {shear_x[row], shear_y[row], shear_z[row]}; }
-  [[nodiscard]] Vec3 force(std::size_t row) const { return {force_x[row], force_y[row], force_z[row]}; }
+  [[nodiscard]] const Vec3& shear(std::size_t row) const { return state[row].shear; }
+  /// Shear force on i with its dashpot, N.
+  [[nodiscard]] Vec3 shear_total(std::size_t row) const {
+    return damping_x.empty() ? shear(row) : shear(row) + Vec3{damping_x[row], damping_y[row], damping_z[row]};
+  }
+  /// Force on i, N; on j the opposite.
+  [[nodiscard]] Vec3 force(std::size_t row) const {
+    return shear_total(row) - state[row].normal * state[row].normal_force;
+  }
+  /// n x F, N: torque on i is lever_i times this, on j lever_j times this.
+  [[nodiscard]] Vec3 couple(std::size_t row) const { return cross(state[row].normal, shear_total(row)); }
+  [[nodiscard]] bool has_dashpots() const { return !normal_dashpot.empty(); }
+  /// From the centre of ball i or j to the contact point, m.
+  [[nodiscard]] double lever_i(std::size_t row) const { return radius_i[row] - 0.5 * state[row].overlap; }
+  [[nodiscard]] double lever_j(std::size_t row) const { return radius_j[row] - 0.5 * state[row].overlap; }
 
   /// Replaces the candidates; history of pairs that stay is kept, new pairs start from zero. Constants are left to the
-  /// caller to fill. Both lists must be sorted.
-  void replace(std::vector<PairKey> new_pairs, std::vector<PairKey> new_wall_pairs);
+  /// caller to fill. Both lists must be sorted; rubber balls are those of ids below n_rubber_balls.
+  void replace(std::vector<PairKey> new_pairs, std::vector<PairKey> new_wall_pairs, int n_rubber_balls = 0);
 
   /// Gives every row constants of zero, for the caller to fill; dashpots are left alone.
   void clear_constants();

@@ -9,6 +9,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
+#include "dem4grm/core/space_curve.hpp"
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/walls/shear_box.hpp"
@@ -20,8 +21,6 @@ namespace {
 /// Stress that the growing grains may exert on each other; only sets the first time step.
 constexpr double k_growth_stress = 50e3;
 constexpr double k_growth_damping = 0.7;
-/// Grains travel far while they grow: a wider margin means fewer searches.
-constexpr double k_growth_skin = 4.0;
 
 /// The rubber grain as a rigid clump of unit ball radius; the masses of its balls add up.
 ClumpTemplate rigid_rubber_grain() {
@@ -127,7 +126,7 @@ void set_scale(Simulation& s, double scale) {
       const Pebble& p = shape.pebbles[static_cast<std::size_t>(k)];
       const Vec3 offset = p.position * (c.size * scale);
       s.clumps.pebble_offset[static_cast<std::size_t>(pebble)] = offset;
-      s.balls.radius[static_cast<std::size_t>(s.balls.pebble_index(pebble))] = p.radius * c.size * scale;
+      s.balls.pebble_radius[static_cast<std::size_t>(pebble)] = p.radius * c.size * scale;
       s.balls.set_position(s.balls.pebble_index(pebble), c.position + to_space(frame, offset));
     }
   }
@@ -178,6 +177,16 @@ void relax(Simulation& s, double longest_step, const FillSettings& settings, Fil
   state.steps += settings.steps_per_reset;
 }
 
+/// Sorts the placed grains along a curve, neighbours side by side. Returns [n] the drawn number of each.
+std::vector<int> number_along_curve(Scene& scene) {
+  std::vector<Vec3> points;
+  for (const PlacedClump& c : scene.clumps) points.push_back(c.pose.position);
+  std::vector<int> order = order_along_curve(points);
+  const std::vector<PlacedClump> old = scene.clumps;
+  for (std::size_t k = 0; k < old.size(); ++k) scene.clumps[k] = old[static_cast<std::size_t>(order[k])];
+  return order;
+}
+
 /// The grains at their first size, at random and apart; returns that size over the full one.
 double place_small(Scene& scene, const Vec3& size, const FillSettings& settings) {
   double scale = settings.start_scale;
@@ -202,8 +211,8 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   Scene scene = clump_scene(grains, materials);
   scene.wall_list = ShearBox(box, fill.height).walls();
   const double scale = place_small(scene, {box.length, box.width, fill.height}, settings);
+  const std::vector<int> drawn = number_along_curve(scene);
   Simulation s(scene);
-  s.skin *= k_growth_skin;
   FrictionTable friction;
   for (auto& row : friction.between_grains) row.fill(settings.friction);
   s.set_friction(friction);
@@ -226,8 +235,13 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   fill.largest_overlap = overlap.largest;
   fill.caught = overlap.caught;
   fill.alignment = rubber_alignment(s);
-  for (const Clump& c : s.clumps.clumps) {
-    (c.material == k_rubber ? fill.rubber : fill.gravel).push_back({c.position, c.orientation});
+  fill.gravel.resize(grains.gravel.size());
+  fill.rubber.resize(static_cast<std::size_t>(grains.rubber_count));
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    const Clump& c = s.clumps.clumps[k];
+    const auto number = static_cast<std::size_t>(drawn[k]);  // gravel first, then rubber
+    Pose& pose = c.material == k_gravel ? fill.gravel[number] : fill.rubber[number - fill.gravel.size()];
+    pose = {c.position, c.orientation};
   }
   return fill;
 }

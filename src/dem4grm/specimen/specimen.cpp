@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/core/space_curve.hpp"
 #include "dem4grm/engine/simulation_state.hpp"
 #include "dem4grm/grains/rubber_size.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
@@ -31,6 +32,36 @@ void describe(const GrainList& g, const SpecimenOrder& order, SpecimenReport& re
   report.mean_density =
       (g.gravel_volume * order.materials.gravel.density + g.rubber_volume * order.solid_density) / total;
   report.rubber_content = g.rubber_content();
+}
+
+/// Throws IoError when the order is no permutation of the grains.
+void renumber_gravel(GrainList& grains, const std::vector<int>& order) {
+  const std::vector<GravelGrain> old = grains.gravel;
+  std::vector<bool> is_used(old.size(), false);
+  if (order.size() != old.size()) throw IoError("the saved state holds another number of gravel grains");
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    const auto from = static_cast<std::size_t>(order[k]);
+    if (from >= old.size() || is_used[from]) throw IoError("the saved state numbers its gravel grains wrongly");
+    is_used[from] = true;
+    grains.gravel[k] = old[from];
+  }
+}
+
+/// Puts the grains of each kind in the order of a curve through the box, so that neighbours lie side by side in memory
+/// for the whole test. order[k]: the drawn grain that becomes gravel grain k.
+std::vector<int> number_along_curve(GrainList& grains, Fill& fill) {
+  const auto sort = [](std::vector<Pose>& poses) {
+    std::vector<Vec3> points;
+    for (const Pose& p : poses) points.push_back(p.position);
+    const std::vector<int> order = order_along_curve(points);
+    const std::vector<Pose> old = poses;
+    for (std::size_t k = 0; k < old.size(); ++k) poses[k] = old[static_cast<std::size_t>(order[k])];
+    return order;
+  };
+  sort(fill.rubber);
+  std::vector<int> order = sort(fill.gravel);
+  renumber_gravel(grains, order);
+  return order;
 }
 
 Scene scene_of(const SpecimenOrder& order, const GrainList& grains, const Fill& fill) {
@@ -115,6 +146,13 @@ class Preparation {
     return std::move(out_);
   }
 
+  Specimen load_only() {
+    hooks_.resumed->exchange("stage", stage_);
+    if (stage_ == k_fill) throw IoError("the saved state is from the fill, which has no specimen yet");
+    load();
+    return std::move(out_);
+  }
+
  private:
   static constexpr const char* k_fill = "fill";
   static constexpr const char* k_compression = "compression";
@@ -148,7 +186,7 @@ class Preparation {
     });
   }
 
-  void begin_compression(const Fill& fill) {
+  void begin_compression(Fill fill) {
     out_.report.fill_steps = fill.steps;
     out_.report.alignment_generated = fill.alignment;
     out_.report.fill_overlap = fill.largest_overlap;
@@ -159,6 +197,7 @@ class Preparation {
                       "larger generation_void_ratio",
                       fill.caught));
     }
+    out_.gravel_order = number_along_curve(out_.grains, fill);
     out_.simulation = std::make_unique<Simulation>(scene_of(order_, out_.grains, fill));
     Simulation& s = *out_.simulation;
     out_.report.time_step = choose_time_step(s, order_.normal_stress);
@@ -214,6 +253,8 @@ class Preparation {
 
   /// A specimen of the right make, with every grain still at the origin, then its state.
   void load() {
+    hooks_.resumed->exchange("gravel_order", out_.gravel_order);
+    renumber_gravel(out_.grains, out_.gravel_order);
     Fill nowhere;
     nowhere.gravel.resize(out_.grains.gravel.size());
     nowhere.rubber.resize(static_cast<std::size_t>(out_.grains.rubber_count));
@@ -235,12 +276,19 @@ class Preparation {
 }  // namespace
 
 void exchange(StateArchive& archive, Specimen& specimen) {
+  archive.exchange("gravel_order", specimen.gravel_order);
   archive.group("report", [&] { exchange(archive, specimen.report); });
   archive.group("simulation", [&] { exchange(archive, *specimen.simulation); });
 }
 
 Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& hooks) {
   return Preparation(order, hooks).run();
+}
+
+Specimen load_specimen(const SpecimenOrder& order, StateArchive& state) {
+  PreparationHooks hooks;
+  hooks.resumed = &state;
+  return Preparation(order, hooks).load_only();
 }
 
 }  // namespace dem

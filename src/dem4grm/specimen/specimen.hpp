@@ -50,7 +50,8 @@ struct SpecimenReport {
 struct Specimen {
   std::unique_ptr<Simulation> simulation;
   PlateLoad load;
-  GrainList grains;
+  GrainList grains;               ///< in the order of the clumps of the simulation
+  std::vector<int> gravel_order;  ///< [n_clumps] number of each clump in the list that was drawn
   SpecimenReport report;
   Bounds bounds;
 };
@@ -75,6 +76,10 @@ struct PreparationHooks {
 /// Prepares a specimen. Throws InputError for grains that cannot be drawn, PhysicsError when a stage fails, IoError when
 /// the state to go on from does not fit the order.
 Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& hooks);
+
+/// The specimen as it was saved, in whatever stage after the fill, without a step of its own. Throws IoError when the
+/// state does not fit the order or was saved during the fill.
+Specimen load_specimen(const SpecimenOrder& order, StateArchive& state);
 
 /// Saves or loads a finished specimen; loading is left to prepare_specimen, which knows how to build one.
 void exchange(StateArchive& archive, Specimen& specimen);

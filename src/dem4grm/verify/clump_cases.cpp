@@ -61,7 +61,7 @@ std::vector<Pebble> pebbles_of(const Simulation& s) {
   std::vector<Pebble> pebbles;
   for (int p = 0; p < clump(s, 0).n_pebbles; ++p) {
     const int i = s.balls.pebble_index(p);
-    pebbles.push_back({s.balls.position(i) - clump(s, 0).position, s.balls.radius[static_cast<std::size_t>(i)]});
+    pebbles.push_back({s.balls.position(i) - clump(s, 0).position, s.balls.radius_of_id(p)});
   }
   return pebbles;
 }

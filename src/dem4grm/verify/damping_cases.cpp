@@ -136,7 +136,7 @@ void check_translation(Findings& f, const std::string& body, Swing w, double alp
 void check_spin(Findings& f, const std::string& body, Swing w, double alpha) {
   // Two shear springs at lever r against I = 2/5 m r^2; k_s / k_n = 2 (1 - nu) / (2 - nu) lies between 2/3 and 1.
   w.s.set_time_step(2 * k_pi / std::sqrt(5 * w.stiffness / mass_of(w)) / (4 * k_steps_per_period));
-  const double radius = w.s.balls.radius[static_cast<std::size_t>(w.ball)];
+  const double radius = w.s.balls.radius_of_id(0);
   throw_ball(w, {}, {k_speed / radius, 0, 0});
   Record record;
   double turn = w.s.balls.spin(w.ball).x * w.s.time_step();  // the springs count the step before the start

@@ -10,15 +10,9 @@
 
 namespace dem::verify {
 
-inline Quaternion orientation_of(const Simulation& s, int i) {
-  const auto k = static_cast<std::size_t>(i);
-  return {s.balls.qw[k], s.balls.qx[k], s.balls.qy[k], s.balls.qz[k]};
-}
+inline Quaternion orientation_of(const Simulation& s, int i) { return s.balls.orientation(i); }
 
-inline void set_orientation(Simulation& s, int i, const Quaternion& q) {
-  const auto k = static_cast<std::size_t>(i);
-  s.balls.qw[k] = q.w, s.balls.qx[k] = q.x, s.balls.qy[k] = q.y, s.balls.qz[k] = q.z;
-}
+inline void set_orientation(Simulation& s, int i, const Quaternion& q) { s.balls.set_orientation(i, q); }
 
 /// Moment of inertia of a rubber ball, kg m2.
 inline double ball_inertia(const Simulation& s) {

@@ -36,14 +36,12 @@ inline Eigen::VectorXd engine_loads(const Scene& scene, const Eigen::VectorXd& u
   s.set_time_step(dt);
   for (int slot = 0; slot < k_grain_balls; ++slot) {
     const int i = BallStore::rubber_index(0, slot);
-    const auto k = static_cast<std::size_t>(i);
     const Vec3 move{u[6 * slot], u[6 * slot + 1], u[6 * slot + 2]};
     const Vec3 turn{u[6 * slot + 3], u[6 * slot + 4], u[6 * slot + 5]};
     s.balls.set_position(i, s.balls.position(i) + move);
     s.balls.set_velocity(i, move * (1.0 / dt));
     s.balls.set_spin(i, turn * (1.0 / dt));
-    const Quaternion q = turned({s.balls.qw[k], s.balls.qx[k], s.balls.qy[k], s.balls.qz[k]}, turn, 1.0);
-    s.balls.qw[k] = q.w, s.balls.qx[k] = q.x, s.balls.qy[k] = q.y, s.balls.qz[k] = q.z;
+    s.balls.set_orientation(i, turned(s.balls.orientation(i), turn, 1.0));
   }
   const Simulation before = s;
   s.step();

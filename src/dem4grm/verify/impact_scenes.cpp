@@ -43,7 +43,7 @@ Simulation two_spheres(const MaterialSettings& m, double radius, double speed, c
 Strike strike(Simulation& s, double expected_duration, int steps_per_contact,
               const std::function<void(const ImpactMoment&)>& watch) {
   const bool at_wall = !s.walls.empty();
-  const auto radius = [&](int c) { return s.balls.radius[static_cast<std::size_t>(s.balls.pebble_index(c))]; };
+  const auto radius = [&](int c) { return s.balls.radius_of_id(c); };
   const double reach = at_wall ? radius(0) : radius(0) + radius(1);
   const auto distance = [&] {
     return at_wall ? clump(s, 0).position.z : norm(clump(s, 1).position - clump(s, 0).position);

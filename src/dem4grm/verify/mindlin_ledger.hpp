@@ -27,7 +27,7 @@ class MindlinLedger {
       const bool at_wall = row >= t.n_pair_rows();
       if (!at_wall && row >= t.n_pairs()) continue;
       const Vec3 f = t.force(row);
-      const double overlap = dot(f, f) > 0.0 ? 2.0 * (t.radius_i[row] - t.lever_i[row]) : 0.0;
+      const double overlap = dot(f, f) > 0.0 ? t.state[row].overlap : 0.0;
       add(s, now, at_wall ? t.wall_pairs[row - t.n_pair_rows()] : t.pairs[row], at_wall,
           stiffness_of(t.hertz[row] * t.shear_ratio[row], overlap), t.shear(row));
     }

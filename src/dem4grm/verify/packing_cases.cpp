@@ -80,7 +80,7 @@ struct Level {
 
 /// All radii times the factor; masses stay.
 void scale_radii(Simulation& s, double factor) {
-  for (double& r : s.balls.radius) r *= factor;
+  for (double& r : s.balls.pebble_radius) r *= factor;
   s.invalidate_candidates();
 }
 

@@ -30,7 +30,7 @@ std::vector<Touch> touches_of(const Simulation& s) {
     const bool at_wall = row >= t.n_pair_rows();
     if ((!at_wall && row >= t.n_pairs()) || dot(f, f) == 0.0) continue;
     const PairKey key = at_wall ? t.wall_pairs[row - t.n_pair_rows()] : t.pairs[row];
-    touches.push_back({first_of(key), at_wall ? -1 : second_of(key), 2.0 * (t.radius_i[row] - t.lever_i[row])});
+    touches.push_back({first_of(key), at_wall ? -1 : second_of(key), t.state[row].overlap});
   }
   return touches;
 }
@@ -87,8 +87,8 @@ PackingState packing_state(const Simulation& s, const Bounds& core, int least_co
   int bearing = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const auto ball = static_cast<int>(k);
-    const Vec3 p = s.balls.position(ball);
-    const double r = s.balls.radius[k];
+    const Vec3 p = s.balls.position(s.balls.index_of_id(ball));
+    const double r = s.balls.radius_of_id(ball);
     diameter += 2.0 * r / static_cast<double>(n);
     if (holds(core, p, -r)) solid += volume_inside(p, r, core);
     if (!holds(core, p, 0.0)) continue;

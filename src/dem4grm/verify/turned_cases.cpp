@@ -36,16 +36,14 @@ struct TurnResult {
   double slip_work = 0.0;           ///< J
 };
 
-Vec3 couple_of(const Simulation& s, std::size_t row) {
-  return {s.contacts.couple_x[row], s.contacts.couple_y[row], s.contacts.couple_z[row]};
-}
+Vec3 couple_of(const Simulation& s, std::size_t row) { return s.contacts.couple(row); }
 
 TurnResult turn_pair(const Vec3& direction) {
   Simulation s = loaded_contact(false);
   const std::size_t row = only_row(s);
   const Vec3 axis = direction * (1.0 / norm(direction)), force = s.contacts.force(row), shear = s.contacts.shear(row);
   const Vec3 start[2] = {clump(s, 0).position, clump(s, 1).position};
-  const double angle = 2 * k_pi / k_turn_steps, levers = s.contacts.lever_i[row] + s.contacts.lever_j[row];
+  const double angle = 2 * k_pi / k_turn_steps, levers = s.contacts.lever_i(row) + s.contacts.lever_j(row);
   const double slip_before = s.ledger.contact_slip;
   Vec3 last_force = force, last_couple = couple_of(s, row), last_move;
   TurnResult out;

@@ -62,12 +62,10 @@ void isolate(Simulation& s, const std::vector<int>& slots) {
 /// velocities.
 void push(Simulation& s, int slot, const Vec3& velocity, const Vec3& spin) {
   const int i = BallStore::rubber_index(0, slot);
-  const auto k = static_cast<std::size_t>(i);
   s.balls.set_velocity(i, s.balls.velocity(i) + velocity);
   s.balls.set_spin(i, s.balls.spin(i) + spin);
   s.balls.set_position(i, s.balls.position(i) + velocity * s.dt);
-  const Quaternion q = turned({s.balls.qw[k], s.balls.qx[k], s.balls.qy[k], s.balls.qz[k]}, spin, s.dt);
-  s.balls.qw[k] = q.w, s.balls.qx[k] = q.x, s.balls.qy[k] = q.y, s.balls.qz[k] = q.z;
+  s.balls.set_orientation(i, turned(s.balls.orientation(i), spin, s.dt));
 }
 
 /// Steps with the loads until rest. Velocities are damped by hand: local damping would also act on the loads.
@@ -93,11 +91,10 @@ void relax(Simulation& s, const Cantilever& c, const Json& p) {
     for (const LoadedBall& l : c.loads) push(s, l.slot, l.force * (dt / mass), l.torque * (dt / inertia));
     for (const int slot : c.held) {
       const int i = BallStore::rubber_index(0, slot);
-      const auto q = static_cast<std::size_t>(i);
       s.balls.set_position(i, start.balls.position(i));
       s.balls.set_velocity(i, {});
       s.balls.set_spin(i, {});
-      s.balls.qw[q] = 1.0, s.balls.qx[q] = s.balls.qy[q] = s.balls.qz[q] = 0.0;
+      s.balls.set_orientation(i, {});
     }
   }
 }
@@ -120,10 +117,10 @@ void run_one(const Json& p, const Cantilever& c, const Folder& folder) {
   Table result(folder / (c.name + ".ours.csv"), "ux,uy,uz,ax,ay,az");
   for (const int slot : c.slots) {
     const int i = BallStore::rubber_index(0, slot);
-    const auto q = static_cast<std::size_t>(i);
+    const Quaternion q = s.balls.orientation(i);
     const Vec3 u = s.balls.position(i) - before.balls.position(i);
-    const Vec3 half{s.balls.qx[q], s.balls.qy[q], s.balls.qz[q]};
-    const double sine = norm(half), angle = 2.0 * std::atan2(sine, s.balls.qw[q]);
+    const Vec3 half{q.x, q.y, q.z};
+    const double sine = norm(half), angle = 2.0 * std::atan2(sine, q.w);
     const Vec3 turn = sine > 0.0 ? half * (angle / sine) : Vec3{};
     result.row(u.x, u.y, u.z, turn.x, turn.y, turn.z);
   }

@@ -38,14 +38,14 @@ TEST(Watchdog, IsSilentWhenAllIsWell) { EXPECT_EQ(find_trouble(three_bodies(), k
 TEST(Watchdog, NamesWhatIsNoNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   Simulation s = three_bodies();
-  s.balls.x[static_cast<std::size_t>(BallStore::rubber_index(0, 20))] = nan;
+  s.balls.at(BallComponent::x, BallStore::rubber_index(0, 20)) = nan;
   EXPECT_TRUE(
       names(find_trouble(s, k_room, 0.5), "rubber grain 0, ball 20 has a position or velocity that is no number"));
   s = three_bodies();
-  s.balls.vy[static_cast<std::size_t>(s.balls.pebble_index(1))] = infinite;
+  s.balls.at(BallComponent::vy, s.balls.pebble_index(1)) = infinite;
   EXPECT_TRUE(names(find_trouble(s, k_room, 0.5), "clump 0, pebble 1"));
   s = three_bodies();
-  s.balls.wz[static_cast<std::size_t>(s.balls.pebble_index(2))] = nan;
+  s.balls.at(BallComponent::wz, s.balls.pebble_index(2)) = nan;
   EXPECT_TRUE(names(find_trouble(s, k_room, 0.5), "clump 1, pebble 0"));
 }
 

@@ -84,7 +84,7 @@ TEST_F(ResultsTest, BallsAndWallsAreThoseOfTheState) {
     const auto row = static_cast<std::size_t>(id);
     const int index = simulation_.balls.index_of_id(id);
     EXPECT_EQ(norm(row_of(position, row) - simulation_.balls.position(index)), 0.0);
-    EXPECT_EQ(radius[row], simulation_.balls.radius[static_cast<std::size_t>(index)]);
+    EXPECT_EQ(radius[row], simulation_.balls.radius_of_id(id));
     EXPECT_EQ(body[row], simulation_.body_of_ball(id));
   }
   const hdf5::Handle walls = hdf5::open_group(file, "frames/0000/walls");

@@ -22,19 +22,19 @@ TEST(ContactTable, KeepsHistoryOfPairsAndWallsApart) {
   t.replace({pair_key(0, 3), pair_key(1, 2)}, {pair_key(0, 0), pair_key(3, 1)});
   ASSERT_EQ(t.n_pair_rows(), k_contact_batch);
   ASSERT_EQ(t.n_rows(), k_contact_batch + 2);
-  t.shear_x[0] = 1;
-  t.shear_y[1] = 2;
-  t.shear_z[k_contact_batch] = 3;
-  t.force_x[k_contact_batch + 1] = 4;
-  t.lever_i[1] = 5;
+  t.state[0].shear.x = 1;
+  t.state[1].shear.y = 2;
+  t.state[k_contact_batch].shear.z = 3;
+  t.state[k_contact_batch + 1].normal_force = 4;
+  t.state[1].overlap = 5;
   // (0,3) goes, (1,2) stays, (0,1) comes; the wall pair (0,0) must not be taken for a ball pair.
   t.replace({pair_key(0, 1), pair_key(1, 2)}, {pair_key(0, 0), pair_key(1, 2), pair_key(3, 1)});
-  EXPECT_EQ(t.shear_x[0], 0.0);
-  EXPECT_EQ(t.shear_y[1], 2.0);
-  EXPECT_EQ(t.lever_i[1], 5.0);
-  EXPECT_EQ(t.shear_z[k_contact_batch], 3.0);
-  EXPECT_EQ(t.shear_y[k_contact_batch + 1], 0.0);  // wall pair (1,2) is new although the ball pair (1,2) is old
-  EXPECT_EQ(t.force_x[k_contact_batch + 2], 4.0);
+  EXPECT_EQ(t.state[0].shear.x, 0.0);
+  EXPECT_EQ(t.state[1].shear.y, 2.0);
+  EXPECT_EQ(t.state[1].overlap, 5.0);
+  EXPECT_EQ(t.state[k_contact_batch].shear.z, 3.0);
+  EXPECT_EQ(t.state[k_contact_batch + 1].shear.y, 0.0);  // wall pair (1,2) is new although the ball pair (1,2) is old
+  EXPECT_EQ(t.state[k_contact_batch + 2].normal_force, 4.0);
 }
 
 TEST(ContactTable, PaddingRowsNeverTouch) {
@@ -43,7 +43,7 @@ TEST(ContactTable, PaddingRowsNeverTouch) {
   for (int i = 0; i < 11; ++i) keys.push_back(pair_key(i, i + 1));
   t.replace(keys, {});
   t.radius_i.fill(1.0);
-  t.shear_x.fill(7.0);
+  for (ContactState& s : t.state) s.shear.x = 7.0;
   keys.resize(3);
   t.replace(keys, {pair_key(5, 0)});
   ASSERT_EQ(t.n_pair_rows(), 8U);
@@ -51,7 +51,7 @@ TEST(ContactTable, PaddingRowsNeverTouch) {
     EXPECT_EQ(t.radius_i[row], 0.0);
     EXPECT_EQ(t.radius_j[row], 0.0);
     EXPECT_EQ(t.hertz[row], 0.0);
-    EXPECT_EQ(t.shear_x[row], 0.0);
+    EXPECT_EQ(t.state[row].shear.x, 0.0);
   }
 }
 
