@@ -25,10 +25,9 @@ struct Rows {
 Rows rows_of(Simulation& s) {
   BallStore& b = s.balls;
   ContactTable& c = s.contacts;
-  return {b.state.data(),          c.index_i.data(),       c.index_j.data(),          c.radius_i.data(),
-          c.radius_j.data(),       c.hertz.data(),         c.shear_ratio.data(),      c.friction.data(),
-          c.normal_dashpot.data(), c.shear_dashpot.data(), &c.state.data()->normal.x, c.damping_x.data(),
-          c.damping_y.data(),      c.damping_z.data()};
+  return {b.state.data(),    c.index_i.data(),     c.index_j.data(),   c.radius_i.data(),       c.radius_j.data(),
+          c.hertz.data(),    c.shear_ratio.data(), c.friction.data(),  c.normal_dashpot.data(), c.shear_dashpot.data(),
+          c.state_numbers(), c.damping_x.data(),   c.damping_y.data(), c.damping_z.data()};
 }
 
 /// Rows ahead of the present batch whose balls are fetched into the cache meanwhile.

@@ -43,7 +43,7 @@ void exchange_contacts(StateArchive& archive, ContactTable& t) {
   archive.exchange("wall_pairs", t.wall_pairs);
   if (archive.is_loading()) t.state.resize(t.n_rows());
   // A row of the table is eight doubles.
-  archive.exchange_fixed("state", std::span(&t.state.data()->normal.x, t.state.size() * k_contact_numbers));
+  archive.exchange_fixed("state", std::span(t.state_numbers(), t.state.size() * k_contact_numbers));
   archive.exchange("damping_x", t.damping_x);
   archive.exchange("damping_y", t.damping_y);
   archive.exchange("damping_z", t.damping_z);

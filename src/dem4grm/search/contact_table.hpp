@@ -55,6 +55,8 @@ struct ContactTable {
   [[nodiscard]] std::size_t n_rows() const { return n_pair_rows() + wall_pairs.size(); }
 
   [[nodiscard]] const Vec3& shear(std::size_t row) const { return state[row].shear; }
+  /// The states as k_contact_numbers doubles for each row.
+  [[nodiscard]] double* state_numbers() { return state.empty() ? nullptr : &state[0].normal.x; }
   /// Shear force on i with its dashpot, N.
   [[nodiscard]] Vec3 shear_total(std::size_t row) const {
     return damping_x.empty() ? shear(row) : shear(row) + Vec3{damping_x[row], damping_y[row], damping_z[row]};
