@@ -23,15 +23,18 @@ std::vector<Vec3> lattice(std::size_t n, double cell, double length, double widt
   const auto along = [&](double size) { return std::max<std::size_t>(1, static_cast<std::size_t>(size / cell)); };
   const std::size_t nx = along(length), ny = along(width);
   std::vector<Vec3> places;
+  places.reserve(n);
   for (std::size_t k = 0; k < n; ++k) {
     RandomSequence random(seed, RandomStream::grain_position, k);
-    const Vec3 at{static_cast<double>(k % nx), static_cast<double>(k / nx % ny), static_cast<double>(k / (nx * ny))};
+    const std::size_t row = k / nx, layer = row / ny;
+    const Vec3 at{static_cast<double>(k % nx), static_cast<double>(row % ny), static_cast<double>(layer)};
     const auto jitter = [&] { return 0.5 + k_jitter * random.uniform(-0.5, 0.5); };
     const Vec3 offset{jitter(), jitter(), jitter()};
     places.push_back((at + offset) * cell);
   }
   const std::vector<int> order = order_along_curve(places);
   std::vector<Vec3> sorted;
+  sorted.reserve(n);
   for (const int k : order) sorted.push_back(places[static_cast<std::size_t>(k)]);
   return sorted;
 }

@@ -180,6 +180,7 @@ void relax(Simulation& s, double longest_step, const FillSettings& settings, Fil
 /// Sorts the placed grains along a curve, neighbours side by side. Returns [n] the drawn number of each.
 std::vector<int> number_along_curve(Scene& scene) {
   std::vector<Vec3> points;
+  points.reserve(scene.clumps.size());
   for (const PlacedClump& c : scene.clumps) points.push_back(c.pose.position);
   std::vector<int> order = order_along_curve(points);
   const std::vector<PlacedClump> old = scene.clumps;

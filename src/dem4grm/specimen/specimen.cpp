@@ -52,8 +52,9 @@ void renumber_gravel(GrainList& grains, const std::vector<int>& order) {
 std::vector<int> number_along_curve(GrainList& grains, Fill& fill) {
   const auto sort = [](std::vector<Pose>& poses) {
     std::vector<Vec3> points;
+    points.reserve(poses.size());
     for (const Pose& p : poses) points.push_back(p.position);
-    const std::vector<int> order = order_along_curve(points);
+    std::vector<int> order = order_along_curve(points);
     const std::vector<Pose> old = poses;
     for (std::size_t k = 0; k < old.size(); ++k) poses[k] = old[static_cast<std::size_t>(order[k])];
     return order;
