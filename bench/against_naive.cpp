@@ -6,10 +6,6 @@
 //
 // Prints one CSV row for each with the fastest and the median step in microseconds, then the ratio of the medians. The
 // walls are evaluated once for both and not timed; after the steps the two states must agree, or the program fails.
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
-
 #include "naive_step.hpp"
 #include "support.hpp"
 
@@ -51,15 +47,8 @@ int measure(const std::string& source, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fputs("usage: bench_against_naive FOLDER|CASE [threads] [steps]\n", stderr);
-    return 64;
-  }
-  try {
-    omp_set_num_threads(argc > 2 ? std::atoi(argv[2]) : omp_get_num_procs());
-    return measure(argv[1], argc > 3 ? std::atoi(argv[3]) : 100);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return bench::run_benchmark(argc, "bench_against_naive FOLDER|CASE [threads] [steps]", [&] {
+    omp_set_num_threads(bench::argument(argc, argv, 2, omp_get_num_procs()));
+    return measure(argv[1], bench::argument(argc, argv, 3, 100));
+  });
 }

@@ -6,9 +6,6 @@
 // The grains of the case in boxes of 1/8, 1 and 8 times its volume, as dense assemblies, on 1, 2, 4, ... threads up to
 // the number of processors. Prints one CSV row each: microseconds and nanoseconds per ball and step, "warm" with the
 // caches as the step before left them, "cold" after a sweep through 128 MiB; then the memory per ball.
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <fstream>
 
 #include "support.hpp"
@@ -60,17 +57,10 @@ void measure(dem::DirectShearCase test, double scale, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fputs("usage: bench_scaling CASE [steps]\n", stderr);
-    return 64;
-  }
-  try {
+  return bench::run_benchmark(argc, "bench_scaling CASE [steps]", [&] {
     const auto test = std::get<dem::DirectShearCase>(dem::load_case(argv[1]).test);
     fmt::print("{},volume,warm_us,warm_ns_per_ball,cold_us,cold_ns_per_ball,bytes_per_ball\n", bench::common_columns());
-    for (const double scale : {0.5, 1.0, 2.0}) measure(test, scale, argc > 2 ? std::atoi(argv[2]) : 50);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
+    for (const double scale : {0.5, 1.0, 2.0}) measure(test, scale, bench::argument(argc, argv, 2, 50));
+    return 0;
+  });
 }

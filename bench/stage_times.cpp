@@ -6,9 +6,6 @@
 // FOLDER is that of a `dem4grm run` stopped in any stage after the fill; of a case file, the grains are taken as a dense
 // assembly that does not move (lab/dense_assembly.hpp). Prints one CSV row per stage and one for the whole step:
 // fastest, median and mean time in microseconds over all steps; then the time of one candidate search.
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
 #include <vector>
 
 #include "support.hpp"
@@ -59,16 +56,9 @@ void measure(const std::string& source, int steps) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fputs("usage: bench_stage_times FOLDER|CASE [threads] [steps]\n", stderr);
-    return 64;
-  }
-  try {
-    omp_set_num_threads(argc > 2 ? std::atoi(argv[2]) : omp_get_num_procs());
-    measure(argv[1], argc > 3 ? std::atoi(argv[3]) : 500);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-  return 0;
+  return bench::run_benchmark(argc, "bench_stage_times FOLDER|CASE [threads] [steps]", [&] {
+    omp_set_num_threads(bench::argument(argc, argv, 2, omp_get_num_procs()));
+    measure(argv[1], bench::argument(argc, argv, 3, 500));
+    return 0;
+  });
 }

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <variant>
@@ -95,6 +98,26 @@ inline Loaded specimen_of(const std::filesystem::path& source) {
 inline void drive_walls(const dem::DirectShearCase& test, dem::Simulation& s) {
   dem::ShearBox::set_velocities(s.walls, test.shear.moving_half, test.shear.velocity,
                                 s.walls[dem::ShearBox::k_top_plate].velocity.z);
+}
+
+/// The body of main: one argument at least, else the usage on stderr and 64; errors on stderr and 1.
+template <class Work>
+int run_benchmark(int argc, const char* usage, const Work& work) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s\n", usage);
+    return 64;
+  }
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
+
+/// A whole number on the command line, or the given one when it is left out.
+inline int argument(int argc, char** argv, int place, int otherwise) {
+  return argc > place ? std::atoi(argv[place]) : otherwise;
 }
 
 inline const char* common_columns() {

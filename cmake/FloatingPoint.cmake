@@ -3,7 +3,7 @@
 #
 # -ffp-contract=off        a*b+c must round twice on every processor, else a build with fused multiply-add gives other bits.
 # -fno-tree-slp-vectorize  g++ 12 contracts a*b-c, a*b+c in neighbouring lanes (vfmsubadd) in spite of the former when it
-#                          joins straight code to vectors; its vectors of loops are in order. tools/check_fused.py looks.
+#                          joins straight code to vectors; its vectors of loops are in order. tools/instructions.py looks.
 # no -ffast-math           sums keep the order in which they are written.
 # -fno-math-errno, -fno-trapping-math
 #                          change no value; they let the compiler use the vector square root and vector selects.

@@ -11,6 +11,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
 namespace {
@@ -67,6 +68,50 @@ struct Interrupter : LabObserver {
   void shear_row(const ShearRow& row) override { rows.push_back(row); }
   void frame(const Simulation& /*state*/, const FrameInfo& info) override { hashes[info.number] = info.state_hash; }
 };
+
+/// The state at the n-th offer of a checkpoint.
+StateArchive state_at(const DirectShearCase& test, int offer) {
+  Interrupter interrupter;
+  interrupter.offers_left = offer;
+  EXPECT_THROW(run_direct_shear(test, interrupter), Stop);
+  return StateArchive(interrupter.state.value());
+}
+
+TEST(LoadSpecimen, GivesBackWhatWasSaved) {
+  const DirectShearCase test = tiny_case();
+  Interrupter straight;
+  run_direct_shear(test, straight);
+  StateArchive saved = state_at(test, straight.offers / 2);  // most offers are of the shear stage
+  Specimen specimen = load_specimen(specimen_order(test), saved);
+  EXPECT_EQ(specimen.simulation->clumps.clumps.size(), specimen.grains.gravel.size());
+  for (std::size_t k = 0; k < specimen.grains.gravel.size(); ++k) {
+    EXPECT_EQ(specimen.simulation->clumps.clumps[k].size, specimen.grains.gravel[k].sieve_size);
+  }
+  StateArchive again;
+  exchange(again, specimen);
+  std::map<std::string, const StateData*> by_name;
+  for (const StateEntry& e : saved.entries()) by_name[e.name] = &e.data;
+  for (const StateEntry& e : again.entries()) {
+    ASSERT_TRUE(by_name.count(e.name) == 1) << e.name;
+    EXPECT_TRUE(*by_name[e.name] == e.data) << e.name;
+  }
+}
+
+TEST(LoadSpecimen, RefusesAStateOfTheFillAndAWrongNumbering) {
+  const DirectShearCase test = tiny_case();
+  StateArchive of_fill = state_at(test, 0);
+  EXPECT_THROW(load_specimen(specimen_order(test), of_fill), IoError);
+  Interrupter straight;
+  run_direct_shear(test, straight);
+  std::vector<StateEntry> entries = state_at(test, straight.offers / 2).entries();
+  for (StateEntry& e : entries) {
+    if (e.name != "gravel_order") continue;
+    auto& order = std::get<std::vector<std::int64_t>>(e.data);
+    order[0] = order[1];
+  }
+  StateArchive wrong(entries);
+  EXPECT_THROW(load_specimen(specimen_order(test), wrong), IoError);
+}
 
 TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
   const DirectShearCase test = tiny_case();

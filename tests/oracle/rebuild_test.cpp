@@ -13,7 +13,7 @@ using namespace dem::test;
 
 constexpr int k_steps = 500;
 
-TEST(Rebuild, SkinDoesNotMatter) {
+TEST(Rebuild, MarginsDoNotMatter) {
   for (const BondForm form : {BondForm::history_free, BondForm::incremental}) {
     MixtureOptions o;
     o.form = form;

@@ -202,6 +202,54 @@ class Headers(Tree):
         self.assert_clean(self.tool)
 
 
+@unittest.skipUnless(os.uname().machine == "x86_64", "the instructions are those of x86-64")
+class Instructions(unittest.TestCase):
+    tool = ROOT / "tools" / "instructions.py"
+
+    def compiled(self, source: str, *flags: str, call: tuple[str, ...]) -> tuple[int, str]:
+        """Exit code and output of the tool on a compiled text; "FILE" in the call is the object file."""
+        with tempfile.TemporaryDirectory() as folder:
+            text, binary = Path(folder) / "part.c", Path(folder) / "part.o"
+            text.write_text(source, encoding="utf-8")
+            subprocess.run(["gcc", "-O3", *flags, "-c", text, "-o", binary], check=True)
+            words = [str(binary) if word == "FILE" else word for word in call]
+            answer = subprocess.run([self.tool, *words], capture_output=True, text=True, check=False)
+            return answer.returncode, answer.stdout
+
+    def fused(self, contract: str) -> tuple[int, str]:
+        return self.compiled("double sum(double a, double b, double c) { return a * b + c; }\n", "-mfma", contract,
+                             call=("fused", "FILE"))
+
+    def test_a_fused_instruction_is_found_and_its_function_named(self) -> None:
+        code, text = self.fused("-ffp-contract=fast")
+        self.assertEqual(code, 1)
+        self.assertIn("fused multiply-add in sum", text)
+
+    def test_without_contraction_there_is_none(self) -> None:
+        self.assertEqual(self.fused("-ffp-contract=off")[0], 0)
+
+    def lanes(self, *flags: str, name: str = "many") -> tuple[int, str]:
+        body = "".join(f"y = y * x[k] + {k + 1}.5 * z; z = z - y * y;" for k in range(40))
+        return self.compiled(f"void many(double* x) {{ for (int k = 0; k < 64; ++k) {{ double y = x[k], z = y * y; "
+                             f"{body.replace('x[k]', 'y')} x[k] = z; }} }}\n", *flags, call=("lanes", "FILE", name))
+
+    def test_a_loop_that_is_not_vectorised_is_found(self) -> None:
+        self.assertEqual(self.lanes()[0], 0)
+        code, text = self.lanes("-fno-tree-vectorize")
+        self.assertEqual(code, 1)
+        self.assertIn("operations on single numbers, 0 on vectors in many", text)
+
+    def test_a_function_that_is_not_there_is_no_success(self) -> None:
+        code, text = self.lanes(name="absent")
+        self.assertEqual(code, 1)
+        self.assertIn("'absent'", text)
+
+    def test_a_missing_file_or_a_wrong_call_is_no_success(self) -> None:
+        for code, words in ((2, ("fused", "no_such_file.o")), (64, ()), (64, ("lanes", "a.o"))):
+            answer = subprocess.run([self.tool, *words], capture_output=True, text=True, check=False)
+            self.assertEqual(answer.returncode, code)
+
+
 class ShellScripts(unittest.TestCase):
     scripts = ("run.sh", "test.sh", "tools/install_dependencies.sh", ".ci/run")
 

@@ -67,7 +67,7 @@ class AlignedArray {
 
   void grow(std::size_t n) {
     const std::size_t bytes = n * sizeof(T);
-    const std::size_t alignment = bytes >= k_huge_page / 4 ? k_huge_page : 64;
+    const std::size_t alignment = bytes >= k_huge_page ? k_huge_page : 64;
     const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
     void* fresh = std::aligned_alloc(alignment, rounded);
     if (fresh == nullptr) throw std::bad_alloc();

@@ -23,6 +23,12 @@ DEM_INLINE void add_four(double* to, const Four& v) {
   __builtin_memcpy(to, &sum, sizeof sum);
 }
 
+/// Cross product of the first three numbers; the fourth is a[3] b[3] - a[3] b[3].
+DEM_INLINE Four cross(const Four& a, const Four& b) {
+  return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
+         __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
+}
+
 DEM_INLINE Eight load_eight(const double* from) {
   Eight v;
   __builtin_memcpy(&v, from, sizeof v);

@@ -91,9 +91,9 @@ DEM_INLINE void collect_balls(const double* balls, const int* index, BatchBalls&
   for (std::size_t k = 0; k < k_pebble_components; ++k) store_eight(out.value[k], collect(b, k * k_lanes));
 }
 
-DEM_INLINE Vec3 difference(const BatchBalls& i, const BatchBalls& j, std::size_t first, std::size_t lane) {
-  return {j.value[first][lane] - i.value[first][lane], j.value[first + 1][lane] - i.value[first + 1][lane],
-          j.value[first + 2][lane] - i.value[first + 2][lane]};
+// Number by number: g++ 12 does not vectorise a loop in which a whole Vec3 is copied.
+DEM_INLINE double take(const BatchBalls& balls, BallComponent component, std::size_t lane) {
+  return balls.value[static_cast<std::size_t>(component)][lane];
 }
 
 /// One row, with constants of its own or those of two rubber balls; adds the dissipated works to slip and dashpot.
@@ -110,20 +110,24 @@ DEM_INLINE void evaluate_row(const Rows& r, std::size_t c, const BatchBalls& i, 
                             !options.dashpots ? 0.0
                             : equal_balls     ? of_rubber.law.shear_dashpot
                                               : own.shear_dashpot[lane]};
+  using C = BallComponent;
   auto& v = state.value;
-  const HertzGeometry g = hertz_geometry({difference(i, j, 0, lane),
-                                          difference(i, j, 3, lane),
-                                          {i.value[6][lane], i.value[7][lane], i.value[8][lane]},
-                                          {j.value[6][lane], j.value[7][lane], j.value[8][lane]},
-                                          equal_balls ? of_rubber.radius_i : own.radius_i[lane],
-                                          equal_balls ? of_rubber.radius_j : own.radius_j[lane],
-                                          {v[4][lane], v[5][lane], v[6][lane]}},
-                                         dt);
+  const HertzGeometry g =
+      hertz_geometry({{take(j, C::x, lane) - take(i, C::x, lane), take(j, C::y, lane) - take(i, C::y, lane),
+                       take(j, C::z, lane) - take(i, C::z, lane)},
+                      {take(j, C::vx, lane) - take(i, C::vx, lane), take(j, C::vy, lane) - take(i, C::vy, lane),
+                       take(j, C::vz, lane) - take(i, C::vz, lane)},
+                      {take(i, C::wx, lane), take(i, C::wy, lane), take(i, C::wz, lane)},
+                      {take(j, C::wx, lane), take(j, C::wy, lane), take(j, C::wz, lane)},
+                      equal_balls ? of_rubber.radius_i : own.radius_i[lane],
+                      equal_balls ? of_rubber.radius_j : own.radius_j[lane],
+                      {v[k_shear_at][lane], v[k_shear_at + 1][lane], v[k_shear_at + 2][lane]}},
+                     dt);
   const HertzForce f = hertz_mindlin<options>(law, g.motion, dt);
-  v[0][lane] = g.normal.x, v[1][lane] = g.normal.y, v[2][lane] = g.normal.z;
-  v[3][lane] = f.normal_total;
-  v[4][lane] = f.shear.x, v[5][lane] = f.shear.y, v[6][lane] = f.shear.z;
-  v[7][lane] = g.motion.overlap;
+  v[k_normal_at][lane] = g.normal.x, v[k_normal_at + 1][lane] = g.normal.y, v[k_normal_at + 2][lane] = g.normal.z;
+  v[k_normal_force_at][lane] = f.normal_total;
+  v[k_shear_at][lane] = f.shear.x, v[k_shear_at + 1][lane] = f.shear.y, v[k_shear_at + 2][lane] = f.shear.z;
+  v[k_overlap_at][lane] = g.motion.overlap;
   if constexpr (options.dashpots) {
     const Vec3 damping = f.shear_total - f.shear;
     r.dx[c] = damping.x;
@@ -138,7 +142,7 @@ DEM_INLINE void load_shear(const double* rows, BatchState& state) {
   constexpr std::size_t n = k_contact_numbers;
   const double* const b[8] = {rows,         rows + n,     rows + 2 * n, rows + 3 * n,
                               rows + 4 * n, rows + 5 * n, rows + 6 * n, rows + 7 * n};
-  for (std::size_t q = 4; q < 7; ++q) store_eight(state.value[q], collect(b, q));
+  for (std::size_t q = k_shear_at; q < k_shear_at + 3; ++q) store_eight(state.value[q], collect(b, q));
 }
 
 DEM_INLINE void store(const BatchState& state, double* rows) {

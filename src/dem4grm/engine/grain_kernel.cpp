@@ -36,11 +36,9 @@ void gather_contacts(const Simulation& s, std::size_t block, ContactLoads& out) 
     Four shear = load_four(&contact.shear.x);
     if constexpr (dashpots) shear += Four{t.damping_x[row], t.damping_y[row], t.damping_z[row], 0.0};
     const Four force = (shear - n * contact.normal_force) * sign;
-    const Four couple = __builtin_shufflevector(n, n, 1, 2, 0, 3) * __builtin_shufflevector(shear, shear, 2, 0, 1, 3) -
-                        __builtin_shufflevector(n, n, 2, 0, 1, 3) * __builtin_shufflevector(shear, shear, 1, 2, 0, 3);
     double* to = out.value[places[k] & ~ContactReferences::k_second];
     add_four(to, force);
-    add_four(to + 4, couple * lever);
+    add_four(to + 4, cross(n, shear) * lever);
   }
 }
 

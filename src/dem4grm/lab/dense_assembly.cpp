@@ -32,11 +32,8 @@ std::vector<Vec3> lattice(std::size_t n, double cell, double length, double widt
     const Vec3 offset{jitter(), jitter(), jitter()};
     places.push_back((at + offset) * cell);
   }
-  const std::vector<int> order = order_along_curve(places);
-  std::vector<Vec3> sorted;
-  sorted.reserve(n);
-  for (const int k : order) sorted.push_back(places[static_cast<std::size_t>(k)]);
-  return sorted;
+  sort_along_curve(places, [](const Vec3& p) { return p; });
+  return places;
 }
 
 }  // namespace

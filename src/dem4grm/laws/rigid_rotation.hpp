@@ -81,7 +81,8 @@ DEM_INLINE FreeRotation rotate_freely(const Quaternion& orientation, const Vec3&
   detail::turn_about_axis<2>(q, body, inverse_inertia.z, h);
   detail::turn_about_axis<1>(q, body, inverse_inertia.y, h);
   detail::turn_about_axis<0>(q, body, inverse_inertia.x, h);
-  return {normalized(q), spin};
+  // Number by number: g++ 12 does not vectorise a loop in which a whole struct is copied.
+  return {normalized(q), {spin.x, spin.y, spin.z}};
 }
 
 }  // namespace dem

@@ -8,6 +8,7 @@
 // belongs to the pair of ids: when the list is rebuilt it is carried over by a merge of the two sorted lists.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,11 @@ struct alignas(64) ContactState {
   double overlap = 0.0;       ///< m, 0 when apart
 };
 inline constexpr std::size_t k_contact_numbers = sizeof(ContactState) / sizeof(double);
-static_assert(k_contact_numbers == 8);
+/// Places of its parts among these numbers.
+inline constexpr std::size_t k_normal_at = 0, k_normal_force_at = 3, k_shear_at = 4, k_overlap_at = 7;
+static_assert(k_contact_numbers == 8 && offsetof(ContactState, normal_force) == k_normal_force_at * sizeof(double) &&
+              offsetof(ContactState, shear) == k_shear_at * sizeof(double) &&
+              offsetof(ContactState, overlap) == k_overlap_at * sizeof(double));
 
 struct ContactTable {
   std::vector<PairKey> pairs;       ///< (i, j) ball ids: pairs of rubber balls, then the others, each part sorted

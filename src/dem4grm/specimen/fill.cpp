@@ -177,17 +177,6 @@ void relax(Simulation& s, double longest_step, const FillSettings& settings, Fil
   state.steps += settings.steps_per_reset;
 }
 
-/// Sorts the placed grains along a curve, neighbours side by side. Returns [n] the drawn number of each.
-std::vector<int> number_along_curve(Scene& scene) {
-  std::vector<Vec3> points;
-  points.reserve(scene.clumps.size());
-  for (const PlacedClump& c : scene.clumps) points.push_back(c.pose.position);
-  std::vector<int> order = order_along_curve(points);
-  const std::vector<PlacedClump> old = scene.clumps;
-  for (std::size_t k = 0; k < old.size(); ++k) scene.clumps[k] = old[static_cast<std::size_t>(order[k])];
-  return order;
-}
-
 /// The grains at their first size, at random and apart; returns that size over the full one.
 double place_small(Scene& scene, const Vec3& size, const FillSettings& settings) {
   double scale = settings.start_scale;
@@ -212,7 +201,7 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   Scene scene = clump_scene(grains, materials);
   scene.wall_list = ShearBox(box, fill.height).walls();
   const double scale = place_small(scene, {box.length, box.width, fill.height}, settings);
-  const std::vector<int> drawn = number_along_curve(scene);
+  const std::vector<int> drawn = sort_along_curve(scene.clumps, [](const PlacedClump& c) { return c.pose.position; });
   Simulation s(scene);
   FrictionTable friction;
   for (auto& row : friction.between_grains) row.fill(settings.friction);

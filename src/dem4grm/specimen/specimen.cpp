@@ -50,17 +50,9 @@ void renumber_gravel(GrainList& grains, const std::vector<int>& order) {
 /// Puts the grains of each kind in the order of a curve through the box, so that neighbours lie side by side in memory
 /// for the whole test. order[k]: the drawn grain that becomes gravel grain k.
 std::vector<int> number_along_curve(GrainList& grains, Fill& fill) {
-  const auto sort = [](std::vector<Pose>& poses) {
-    std::vector<Vec3> points;
-    points.reserve(poses.size());
-    for (const Pose& p : poses) points.push_back(p.position);
-    std::vector<int> order = order_along_curve(points);
-    const std::vector<Pose> old = poses;
-    for (std::size_t k = 0; k < old.size(); ++k) poses[k] = old[static_cast<std::size_t>(order[k])];
-    return order;
-  };
-  sort(fill.rubber);
-  std::vector<int> order = sort(fill.gravel);
+  const auto position_of = [](const Pose& pose) { return pose.position; };
+  sort_along_curve(fill.rubber, position_of);
+  std::vector<int> order = sort_along_curve(fill.gravel, position_of);
   renumber_gravel(grains, order);
   return order;
 }

@@ -23,6 +23,28 @@ TEST(Cayley, TurnsByTwiceTheArcTangent) {
   EXPECT_NEAR(x.z, 0.0, 1e-15);
 }
 
+TEST(Cayley, SeriesForLittleTurnsIsTheSameMap) {
+  RandomSequence random(9, RandomStream::test, 0);
+  for (int k = 0; k < 1000; ++k) {
+    const Quaternion q = random.orientation();
+    const Vec3 axis = rotate(random.orientation(), {0, 0, 1});
+    const Vec3 spin = axis * random.uniform(0.0, 0.06);
+    const Quaternion exact = turned(q, spin, 1.0), series = turned_a_little(q, spin, 1.0);
+    EXPECT_NEAR(series.w, exact.w, 5e-16);
+    EXPECT_NEAR(series.x, exact.x, 5e-16);
+    EXPECT_NEAR(series.y, exact.y, 5e-16);
+    EXPECT_NEAR(series.z, exact.z, 5e-16);
+  }
+  const Quaternion far = turned_a_little({}, {0, 0, 1.5}, 1.0);  // outside its range it must show
+  EXPECT_GT(std::fabs(far.w * far.w + far.z * far.z - 1.0), 1e-3);
+}
+
+TEST(Cayley, SeriesKeepsTheLengthOverManySteps) {
+  Quaternion q = normalized(Quaternion{0.3, -0.5, 0.7, 0.2});
+  for (int k = 0; k < 100000; ++k) q = turned_a_little(q, {2e3, -3e3, 5e3}, 3e-6);
+  EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1.0, 1e-15);
+}
+
 TEST(Cayley, SpinIsInSpaceAxes) {
   // Turn about x by 90 degrees first, then about the space z axis: body y, now along z, must stay there.
   const Quaternion first = turned({}, {2.0, 0, 0}, 1.0), second = turned(first, {0, 0, 0.3}, 1.0);
