@@ -16,6 +16,7 @@ enum class RandomStream : std::uint64_t {
   grain_orientation = 4,
   grain_order = 5,
   monte_carlo = 6,
+  stiffest_mode = 7,
   test = 99,
 };
 

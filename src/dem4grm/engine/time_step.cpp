@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "dem4grm/engine/stiffest_mode.hpp"
 #include "dem4grm/laws/mixing.hpp"
 
 namespace dem {
@@ -247,6 +248,14 @@ TimeStepLimit choose_time_step(const Simulation& s, double stress) {
   const TimeStepLimit present = clump_limit(s);
   if (present.seconds < limit.seconds) limit = present;
   return {rounded_down_to_nanosecond(s.scene.integration.time_step_safety * limit.seconds), limit.limited_by};
+}
+
+void review_time_step(Simulation& s, double longest) {
+  const int interval = s.balls.n_grains > 0 ? k_review_interval_with_rubber : k_review_interval;
+  const IntegrationSettings& settings = s.scene.integration;
+  if (s.steps % interval != 0 || settings.time_step_rule == TimeStepRule::diagonal) return;
+  const double stable = stable_time_step(s, s.dt / settings.time_step_safety);
+  s.set_time_step(std::min(rounded_down_to_nanosecond(settings.time_step_safety * stable), longest));
 }
 
 }  // namespace dem

@@ -37,6 +37,14 @@ TimeStepLimit expected_clump_limit(const Simulation& s, double stress);
 /// Largest whole number of nanoseconds not above t: no detail of an eigenvalue solver reaches the bits of a run.
 double rounded_down_to_nanosecond(double t);
 
+/// Steps between two reviews of the time step: each costs as much as 30 steps without rubber and 130 with it, where the
+/// bonds decide the limit and hardly change.
+inline constexpr int k_review_interval = 5000, k_review_interval_with_rubber = 20000;
+
+/// At every multiple of the interval above, sets the time step to safety times the limit of the state as it stands
+/// (stiffest_mode.hpp), at most `longest` (s). Leaves it alone when the case asks for the diagonal rule.
+void review_time_step(Simulation& s, double longest);
+
 /// Chooses the time step of a simulation that will carry the stress (Pa): safety times the smallest limit.
 TimeStepLimit choose_time_step(const Simulation& s, double stress);
 

@@ -10,7 +10,7 @@
 namespace dem {
 namespace {
 
-constexpr std::array<ColumnInfo, 18> k_shear_columns{{
+constexpr std::array<ColumnInfo, 19> k_shear_columns{{
     {"displacement_mm", "mm", "displacement of the halves against each other at the end of the interval"},
     {"shear_stress_kPa", "kPa", "net x-force on the walls of the lower half over the nominal area"},
     {"shear_stress_corrected_kPa", "kPa", "the same over the area that is left"},
@@ -22,6 +22,7 @@ constexpr std::array<ColumnInfo, 18> k_shear_columns{{
     {"half_force_imbalance", "1", "difference of the shear stresses of both halves over the largest one so far"},
     {"plate_shear_stress_kPa", "kPa", "share of the shear stress that the bottom plate carries"},
     {"normal_stress_worst_kPa", "kPa", "the single step farthest from the target"},
+    {"time_step_us", "us", "time step at the end of the interval"},
     {"kinetic_J", "J", "kinetic energy"},
     {"contact_strain_J", "J", "elastic energy of the contacts"},
     {"bond_strain_J", "J", "elastic energy of the bonds"},
@@ -89,7 +90,8 @@ std::vector<double> shear_values(const ShearRow& row, double half_force_imbalanc
                              row.unbalanced_ratio,
                              half_force_imbalance,
                              row.plate_shear_stress / 1e3,
-                             row.normal_stress_worst / 1e3};
+                             row.normal_stress_worst / 1e3,
+                             row.time_step * 1e6};
   append_energies(values, row.energy);
   return values;
 }

@@ -9,6 +9,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/simulation_state.hpp"
+#include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/lab/record_state.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
@@ -41,6 +42,8 @@ namespace {
 constexpr int k_watch_interval = 500;  // steps between two looks of the watchdog
 /// The halves reach their velocity over this displacement, so that the start is no blow.
 constexpr double k_start_ramp = 2e-5;  // m
+/// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
+constexpr double k_longest_over_prepared = 2.0;
 
 /// Sums over one interval of the record.
 struct IntervalSums {
@@ -108,6 +111,7 @@ class ShearStage {
     ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v * ramp, s_.walls[ShearBox::k_top_plate].velocity.z);
     s_.step();
     displacement_ += v * ramp * s_.dt;
+    review_time_step(s_, k_longest_over_prepared * specimen_.report.time_step.seconds);
     for (int w = 0; w < ShearBox::k_walls; ++w) {
       const double fx = s_.reactions[static_cast<std::size_t>(w)].force.x;
       (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += fx;
@@ -138,6 +142,7 @@ class ShearStage {
     row.inertial_number = test_.shear.velocity / start_height_ * specimen_.report.mean_size *
                           std::sqrt(specimen_.report.mean_density / row.normal_stress);
     row.unbalanced_ratio = balance(s_).ratio();
+    row.time_step = s_.dt;
     row.energy = since_start(s_.energy());
     rows_.push_back(row);
     sums_ = {};

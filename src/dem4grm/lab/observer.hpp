@@ -39,6 +39,7 @@ struct ShearRow {
   double half_force_difference = 0.0;  ///< Pa, (lower half minus upper half) over the nominal area
   double normal_stress_worst = 0.0;    ///< Pa, the single step farthest from the target
   double plate_shear_stress = 0.0;     ///< Pa, share of the lower half's shear stress that its plate carries
+  double time_step = 0.0;              ///< s, at the end of the interval
   EnergyReport energy;                 ///< J, since shear began
 };
 

@@ -23,6 +23,7 @@ auto numbers_of(Row& r) {
                     &r.half_force_difference,
                     &r.normal_stress_worst,
                     &r.plate_shear_stress,
+                    &r.time_step,
                     &e.kinetic,
                     &e.contact_strain,
                     &e.bond_strain,

@@ -227,6 +227,7 @@ class Preparation {
   void rest() {
     Simulation& s = *out_.simulation;
     bring_to_rest(s, out_.load, order_.equilibrium, rest_, [&] {
+      review_time_step(s, out_.report.time_step.seconds);
       if (rest_.steps % (5 * k_rest_interval) == 0) {
         const std::string trouble = find_trouble(s, out_.bounds, k_overlap_limit);
         if (!trouble.empty()) throw PhysicsError(fmt::format("{} (stage {}, step {})", trouble, stage_, rest_.steps));

@@ -15,6 +15,7 @@ const std::vector<VerificationCase>& verification_cases() {
     add_clump_cases(cases);
     add_damping_cases(cases);
     add_stability_cases(cases);
+    add_assembly_limit_cases(cases);
     add_energy_cases(cases);
     add_packing_cases(cases);
     return cases;

@@ -39,6 +39,7 @@ void add_body_cases(std::vector<VerificationCase>& cases);
 void add_clump_cases(std::vector<VerificationCase>& cases);
 void add_damping_cases(std::vector<VerificationCase>& cases);
 void add_stability_cases(std::vector<VerificationCase>& cases);
+void add_assembly_limit_cases(std::vector<VerificationCase>& cases);
 void add_energy_cases(std::vector<VerificationCase>& cases);
 void add_packing_cases(std::vector<VerificationCase>& cases);
 

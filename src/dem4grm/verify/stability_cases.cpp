@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
-#include "dem4grm/core/random.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/verify/cases.hpp"
 #include "dem4grm/verify/driven_grain.hpp"
+#include "dem4grm/verify/growth.hpp"
 
 namespace dem {
 
@@ -67,26 +66,11 @@ void check_limits(Findings& findings) {
 
 /// Random velocities of +-speed (m/s) and spins of +-speed / 1 mm.
 void shake_grain(Simulation& s, double speed) {
-  RandomSequence random(3, RandomStream::test, 0);
-  const auto draw = [&](double size) {
-    return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-  };
+  RandomVectors draw(3);
   for (int slot = 0; slot < k_grain_balls; ++slot) {
     s.balls.set_velocity(BallStore::rubber_index(0, slot), draw(speed));
     s.balls.set_spin(BallStore::rubber_index(0, slot), draw(1e3 * speed));
   }
-}
-
-/// Largest kinetic energy over the start's within so many steps; stops when it has grown a millionfold.
-double largest_growth(Simulation& s, int steps) {
-  const double start = s.energy().kinetic;
-  double largest = 0.0;
-  for (int k = 0; k < steps && largest < 1e6 * start; ++k) {
-    s.step();
-    const double now = s.energy().kinetic;
-    largest = std::isfinite(now) ? std::max(largest, now) : 1e300;
-  }
-  return largest / start;
 }
 
 double grain_growth(BondForm form, double damping, double fraction, int steps) {
@@ -96,17 +80,6 @@ double grain_growth(BondForm form, double damping, double fraction, int steps) {
   shake_grain(s, 1e-6);
   s.set_time_step(fraction * loaded_grain_limit(scene).seconds);
   return largest_growth(s, steps);
-}
-
-constexpr const char* k_border = "border of the leapfrog scheme, largest eigenvalue 4";
-
-void hold_growth(Findings& findings, const std::string& what, double fraction, double growth) {
-  const std::string quantity = fmt::format("growth of the kinetic energy at {} of the limit, {}", fraction, what);
-  if (fraction < 1.0) {
-    findings.at_most(quantity, "1", 20.0, growth, k_border);
-  } else {
-    findings.at_least(quantity, "1", 1e6, growth, k_border);
-  }
 }
 
 void check_grain_border(Findings& findings, int steps, double above) {
@@ -155,10 +128,7 @@ double layer_limit() {
 
 double layer_growth(double time_step, int steps) {
   Simulation s = pressed_layer();
-  RandomSequence random(4, RandomStream::test, 0);
-  const auto draw = [&](double size) {
-    return Vec3{random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-  };
+  RandomVectors draw(4);
   for (std::size_t c = 0; c < s.clumps.clumps.size(); ++c) set_motion(s, c, draw(1e-7), draw(1e-4));
   s.set_time_step(time_step);
   return largest_growth(s, steps);

@@ -30,6 +30,7 @@ ShearRow sample_row() {
   row.unbalanced_ratio = 0.1 + 0.2;
   row.plate_shear_stress = 1e3 / 3.0;
   row.normal_stress_worst = 99e3;
+  row.time_step = 4.25e-6;
   row.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
   return row;
 }
@@ -66,7 +67,7 @@ TEST(Table, RowsAreInTheFileAtOnceInShortestNumbers) {
   const std::string text = read_all(folder / "shear.csv");
   const std::string row = text.substr(text.find('\n') + 1);
   EXPECT_EQ(row,
-            "0.01,61.2345,62,100,-0.002,0.65,3e-05,0.30000000000000004,0.25,0.3333333333333333,99,"
+            "0.01,61.2345,62,100,-0.002,0.65,3e-05,0.30000000000000004,0.25,0.3333333333333333,99,4.25,"
             "1,2,3,4,5,6,7\n");
   EXPECT_EQ(table.rows(), 1U);
   EXPECT_EQ(table.values_of(1).front(), 61.2345);
