@@ -29,13 +29,6 @@ std::string clock_text(double utc_seconds, double seconds_ahead) {
   return text.data();
 }
 
-std::string duration_text(double seconds) {
-  if (seconds < 100.0) return fmt::format("{:.0f} s", seconds);
-  if (seconds < 6000.0) return fmt::format("{:.0f} min", seconds / 60.0);
-  if (seconds < 100.0 * 3600.0) return fmt::format("{:.1f} h", seconds / 3600.0);
-  return fmt::format("{:.1f} days", seconds / 86400.0);
-}
-
 }  // namespace
 
 // What matters most comes first: a narrow terminal cuts the end.

@@ -18,4 +18,7 @@ bool is_error_stream_a_terminal();
 /// Columns of the terminal; 80 when unknown.
 int terminal_width();
 
+/// "50 s", "12 min", "3.4 h" or "5.0 days".
+std::string duration_text(double seconds);
+
 }  // namespace dem

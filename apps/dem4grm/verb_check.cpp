@@ -1,21 +1,27 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // dem4grm check: validates a case and shows what follows from it.
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/io/case_facts.hpp"
+#include "dem4grm/io/run_forecast.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
 namespace dem {
 namespace {
 
+constexpr double k_trial = 2.0;  // s
+
 struct CheckOptions {
   std::string case_path;
   std::vector<std::string> settings;
-  bool is_json = false, is_key_list = false;
+  bool is_json = false, is_key_list = false, is_brief = false;
+  int threads = 0;
 };
 
 const char* verdict(double inertial_number) {
@@ -32,7 +38,8 @@ std::string facts_text(const CaseFacts& f, std::size_t warnings) {
   };
   line("grains", fmt::format("{} gravel clumps, {} rubber grains", f.clumps, f.rubber_grains));
   line("balls", fmt::format("{}, with {} bonds", f.balls, f.bonds));
-  line("time step", fmt::format("{:.3e} s at most, limited by: {}", f.time_step, f.time_step_limited_by));
+  line("time step", fmt::format("{:.3e} s{}, limited by: {}", f.time_step,
+                                f.test == "direct_shear" ? " until shear" : "", f.time_step_limited_by));
   line("steps", fmt::format("{} {}, {} rows", f.steps, f.test == "direct_shear" ? "of shear" : "in all", f.rows));
   if (f.test == "direct_shear") {
     line("rubber content", fmt::format("{:.4f} by solid volume", f.rubber_content));
@@ -45,6 +52,25 @@ std::string facts_text(const CaseFacts& f, std::size_t warnings) {
   return text;
 }
 
+std::string forecast_text(const RunForecast& f) {
+  std::string text;
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<18} {}\n", name, value);
+  };
+  const std::string parts =
+      f.preparation_time > 0.0
+          ? fmt::format(": specimen {}, shear {}", duration_text(f.preparation_time), duration_text(f.test_time))
+          : "";
+  line("time", fmt::format("about {} with {} thread(s){}", duration_text(f.time()), f.threads, parts));
+  line("",
+       fmt::format("{} steps of {:.3g} ms, from a trial of two seconds on this machine", f.steps, f.step_time * 1e3));
+  if (f.results_size > 0.0) {
+    line("disk", fmt::format("about {:.0f} MB, and {:.0f} MB for the checkpoint while it runs", f.results_size / 1e6,
+                             f.checkpoint_size / 1e6));
+  }
+  return text;
+}
+
 void check(const CheckOptions& options) {
   if (options.is_key_list) {
     print_result(key_table_markdown());
@@ -54,14 +80,19 @@ void check(const CheckOptions& options) {
   const std::vector<Override> overrides = overrides_from(options.settings);
   const LoadedCase loaded = load_case(options.case_path, overrides);
   const CaseFacts facts = derive_facts(loaded.test);
+  std::optional<RunForecast> forecast;
+  if (!options.is_brief) forecast = forecast_run(loaded.test, facts, k_trial, options.threads);
   if (options.is_json) {
     JsonObject answer = facts_as_json(facts);
+    if (forecast) {
+      for (JsonField& field : forecast_as_json(*forecast)) answer.push_back(std::move(field));
+    }
     answer.push_back({"warnings", loaded.warnings});
     print_result(json_text(answer));
     return;
   }
   for (const std::string& text : loaded.warnings) print_warning(text);
-  print_result(facts_text(facts, loaded.warnings.size()) +
+  print_result(facts_text(facts, loaded.warnings.size()) + (forecast ? forecast_text(*forecast) : "") +
                fmt::format("  {:<18} dem4grm run {}\n", "next", options.case_path));
 }
 
@@ -72,6 +103,10 @@ void add_check(CLI::App& app) {
   const auto options = std::make_shared<CheckOptions>();
   verb->add_option("CASE", options->case_path, "case file");
   add_set_option(*verb, options->settings);
+  verb->add_option("-j,--threads", options->threads,
+                   "number of threads of the forecast; default: one or all, whatever is faster here")
+      ->check(CLI::Range(1, 1024));
+  verb->add_flag("--brief", options->is_brief, "no trial, and so no forecast of time and disk");
   verb->add_flag("--json", options->is_json, "as one JSON object on stdout");
   verb->add_flag("--keys", options->is_key_list, "the table of all keys in Markdown instead");
   verb->footer("Example:\n  dem4grm check cases/quick.toml --set shear.velocity=\"2 mm/s\"");

@@ -110,6 +110,11 @@ TEST_F(CommandLine, CheckShowsWhatFollowsFromACase) {
   EXPECT_GT(number_in(facts, "time_step_s"), 1e-7);
   EXPECT_TRUE(is_set_in(facts, "is_quasi_static"));
   EXPECT_TRUE(result.err.empty()) << result.err;
+  EXPECT_GT(number_in(facts, "forecast_time_s"), 1.0);
+  EXPECT_GT(number_in(facts, "forecast_steps"), number_in(facts, "steps"));
+  const ProgramResult brief = run({"check", "tiny.toml", "--brief", "--json"});
+  EXPECT_EQ(brief.exit_code, 0) << brief.err;
+  EXPECT_EQ(brief.out.find("forecast"), std::string::npos) << brief.out;
   const ProgramResult keys = run({"check", "--keys"});
   EXPECT_EQ(keys.exit_code, 0);
   EXPECT_NE(keys.out.find("rubber_content"), std::string::npos);
@@ -125,6 +130,12 @@ TEST_F(CommandLine, SameBytesForAnyNumberOfThreads) {
     EXPECT_FALSE(bytes.empty()) << file;
     EXPECT_TRUE(bytes == read_all(folder_ / "two" / file)) << file;
   }
+  double size = 0.0;
+  for (const char* file : {"shear.csv", "results.h5", "specimen.h5"}) {
+    size += static_cast<double>(std::filesystem::file_size(folder_ / "one" / file));
+  }
+  const JsonObject forecast = parse_json(run({"check", "tiny.toml", "--json"}).out, "check");
+  EXPECT_NEAR(1e6 * number_in(forecast, "forecast_results_MB"), size, 0.3 * size);
   const JsonObject a = json("one/summary.json"), b = json("two/summary.json");
   EXPECT_EQ(number_in(b, "threads"), 2.0);
   const auto& hashes = std::get<JsonList>(find_field(a, "state_hashes")->data);

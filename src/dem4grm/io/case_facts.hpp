@@ -14,7 +14,7 @@ namespace dem {
 struct CaseFacts {
   std::string test, name;
   int balls = 0, clumps = 0, rubber_grains = 0, bonds = 0;
-  double time_step = 0.0;  ///< s; the contacts of the real specimen may make it shorter, never longer
+  double time_step = 0.0;  ///< s, of the preparation; in shear it follows the contacts that there are
   std::string time_step_limited_by;
   std::int64_t steps = 0;  ///< of the shear stage, or of the whole compression
   int rows = 0;            ///< of the record

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a run will take on this machine: time from a short trial of the case's own grains, and disk.
+#pragma once
+
+#include <cstdint>
+
+#include "dem4grm/io/case_facts.hpp"
+#include "dem4grm/io/case_file.hpp"
+#include "dem4grm/io/json_text.hpp"
+
+namespace dem {
+
+struct RunForecast {
+  int threads = 0;                ///< with which it was tried and is forecast: the number that is fastest here
+  double step_time = 0.0;         ///< s, of a step of the loaded specimen
+  std::int64_t steps = 0;         ///< all stages
+  double preparation_time = 0.0;  ///< s, fill, compression and final friction
+  double test_time = 0.0;         ///< s, shear, or the compression of a grain
+  double results_size = 0.0;      ///< bytes that stay when the run is done
+  double checkpoint_size = 0.0;   ///< bytes while it runs; twice that for the moment in which one is replaced
+
+  [[nodiscard]] double time() const { return preparation_time + test_time; }
+};
+
+/// Steps a stand-in for the specimen (lab/dense_assembly.hpp) for about `trial` seconds, half of them on one thread and
+/// half on `most_threads`, which 0 leaves to the machine. Throws InputError for grains that cannot be drawn.
+RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, double trial = 2.0, int most_threads = 0);
+
+/// The forecast with units in its names.
+JsonObject forecast_as_json(const RunForecast& forecast);
+
+}  // namespace dem

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the forecast of a run is made of; how near it comes to a real run of the program is in tests/lab.
+#include <gtest/gtest.h>
+
+#include "dem4grm/io/run_forecast.hpp"
+
+namespace {
+
+using namespace dem;
+
+DirectShearCase small_case(double rubber_content) {
+  DirectShearCase test;
+  test.specimen.rubber_content = rubber_content;
+  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {6.0e-3, 1.0}};
+  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
+  test.box.length = test.box.width = 0.040;
+  test.box.height = 0.030;
+  test.shear.normal_stress = 100e3;
+  return test;
+}
+
+RunForecast forecast_of(const DirectShearCase& test) { return forecast_run(test, derive_facts(test), 0.05, 1); }
+
+TEST(RunForecast, TwiceTheDisplacementTakesTwiceTheShear) {
+  DirectShearCase test = small_case(0.3);
+  const RunForecast once = forecast_of(test);
+  const CaseFacts facts = derive_facts(test);
+  test.shear.displacement *= 2.0;
+  const RunForecast twice = forecast_of(test);
+  EXPECT_EQ(once.threads, 1);
+  EXPECT_GT(once.step_time, 1e-6);
+  EXPECT_NEAR(once.test_time, static_cast<double>(facts.steps) * once.step_time, 1e-9 * once.test_time);
+  EXPECT_NEAR(static_cast<double>(twice.steps - once.steps), static_cast<double>(facts.steps), 1.0);
+  EXPECT_EQ(once.time(), once.preparation_time + once.test_time);
+}
+
+TEST(RunForecast, AQuickPlatePreparesInFewerSteps) {
+  DirectShearCase test = small_case(0.0);
+  const RunForecast slow = forecast_of(test);
+  test.specimen.approach_speed *= 10.0;
+  EXPECT_LT(forecast_of(test).steps, slow.steps);
+}
+
+TEST(RunForecast, EveryStateTakesItsRoom) {
+  DirectShearCase test = small_case(0.3);
+  test.recording.extra_frames = {};
+  test.recording.frame_interval = test.shear.displacement;
+  const double two_states = forecast_of(test).results_size;
+  test.recording.frame_interval = test.shear.displacement / 10.0;
+  EXPECT_GT(forecast_of(test).results_size, 3.0 * two_states);
+}
+
+TEST(RunForecast, OfAGrainBetweenPlates) {
+  const GrainCompressionCase test;
+  const CaseFacts facts = derive_facts(test);
+  const RunForecast f = forecast_run(test, facts, 0.05);
+  EXPECT_EQ(f.steps, facts.steps);
+  EXPECT_GT(f.test_time, 0.0);
+  EXPECT_EQ(f.preparation_time, 0.0);
+}
+
+}  // namespace
