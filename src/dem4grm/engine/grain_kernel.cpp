@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dem4grm/core/blocks.hpp"
-#include "dem4grm/core/registers.hpp"
+#include "dem4grm/engine/contact_sums.hpp"
 #include "dem4grm/engine/grain_block.hpp"
 #include "dem4grm/engine/hertz_dispatch.hpp"
 #include "dem4grm/laws/local_damping.hpp"
@@ -12,55 +12,6 @@
 namespace dem {
 
 namespace {
-
-constexpr int k_references_ahead = 16;
-
-/// Adds the contact rows that act on a block, in row order.
-///   force = sign (F_s - n F_n),   torque = lever n x F_s     (ContactTable)
-/// The fourth lanes hold what is left of normal force and overlap, and nobody reads them.
-template <bool dashpots>
-void gather_contacts(const Simulation& s, std::size_t block, ContactLoads& out) {
-  const ContactTable& t = s.contacts;
-  const double radius = s.scene.rubber_ball_radius;
-  const ContactState* const states = t.state.data();
-  const int* const rows = s.references.row.data();
-  const int* const places = s.references.place.data();
-  const int end = s.references.start[block + 1];
-  for (int k = s.references.start[block]; k < end; ++k) {
-    if (k + k_references_ahead < end) __builtin_prefetch(states + rows[k + k_references_ahead]);
-    const auto row = static_cast<std::size_t>(rows[k]);
-    const ContactState& contact = states[row];
-    const double sign = (places[k] & ContactReferences::k_second) != 0 ? -1.0 : 1.0;
-    const double lever = radius - 0.5 * contact.overlap;
-    const Four n = load_four(&contact.normal.x);
-    Four shear = load_four(&contact.shear.x);
-    if constexpr (dashpots) shear += Four{t.damping_x[row], t.damping_y[row], t.damping_z[row], 0.0};
-    const Four force = (shear - n * contact.normal_force) * sign;
-    double* to = out.value[places[k] & ~ContactReferences::k_second];
-    add_four(to, force);
-    add_four(to + 4, cross(n, shear) * lever);
-  }
-}
-
-/// Begins the loads of all balls with those of their contacts, W balls at a time.
-void begin_loads(const ContactLoads& contacts, BlockForces& out) {
-  for (std::size_t slot = 0; slot < k_grain_balls; ++slot) {
-    const auto* of_slot = contacts.value + slot * k_lanes;
-    double* to = out.value + load_at(slot, 0);
-    if constexpr (k_lanes == 8) {
-      Eight v[8];
-      for (std::size_t lane = 0; lane < 8; ++lane) v[lane] = load_eight(of_slot[lane]);
-      transpose(v);
-      for (std::size_t c = 0; c < 3; ++c) store_eight(to + c * 8, v[c]);
-      for (std::size_t c = 3; c < 6; ++c) store_eight(to + c * 8, v[c + 1]);
-    } else {
-      for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-        for (std::size_t c = 0; c < 3; ++c) to[c * k_lanes + lane] = of_slot[lane][c];
-        for (std::size_t c = 3; c < 6; ++c) to[c * k_lanes + lane] = of_slot[lane][c + 1];
-      }
-    }
-  }
-}
 
 /// Squared distance of a pair in every lane.
 DEM_INLINE void squared_distances(const GrainBlock& g, std::size_t i, std::size_t j, double* d2) {

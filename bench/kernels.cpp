@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How fast is each hot loop by itself? Bonds, contacts, ordered sums and the search of neighbours, on the specimen of an
+// output folder or on a dense assembly of a case.
+//
+//   bench_kernels FOLDER|CASE [threads] [repeats]
+//
+// Nothing moves: every loop runs again and again on the same state. Prints one CSV row per loop: fastest and median time
+// in microseconds over all repeats, the number of its items and the fastest time per item in nanoseconds.
+#include <vector>
+
+#include "dem4grm/core/blocks.hpp"
+#include "dem4grm/engine/contact_sums.hpp"
+#include "support.hpp"
+
+namespace {
+
+/// One number of every block, so that no loop can be left out by the compiler.
+using Kept = std::vector<double>;
+
+void run_bonds(dem::Simulation& s, Kept& kept) {
+  dem::for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
+    dem::BlockForces load;
+    dem::BlockLosses losses;
+    dem::begin_loads(dem::ContactLoads{}, load);
+    dem::add_history_free_bonds(s.bond, dem::grain_block(s.balls, block), s.dt, load, losses);
+    kept[block] = load.value[0] + losses.dashpot[0];
+  });
+}
+
+void run_sums(dem::Simulation& s, Kept& kept) {
+  dem::for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
+    dem::ContactLoads contacts;
+    if (s.contacts.has_dashpots()) {
+      dem::gather_contacts<true>(s, block, contacts);
+    } else {
+      dem::gather_contacts<false>(s, block, contacts);
+    }
+    kept[block] = contacts.value[0][0];
+  });
+}
+
+template <class Work>
+void measure(const std::string& common, const char* name, std::size_t items, int repeats, Work&& work) {
+  if (items == 0) return;
+  bench::Times times;
+  for (int k = 0; k < repeats; ++k) times.add(bench::time_of(work));
+  fmt::print("{},{},{:.2f},{:.2f},{},{:.3f}\n", common, name, times.fastest(), times.median(), items,
+             times.fastest() * 1e3 / static_cast<double>(items));
+}
+
+void measure_all(const std::string& source, int repeats) {
+  bench::Loaded loaded = bench::specimen_of(source);
+  dem::Simulation& s = *loaded.specimen.simulation;
+  s.step();
+  const std::string common = bench::common_row(loaded.test.name, s);
+  const auto blocks = static_cast<std::size_t>(s.balls.n_blocks);
+  Kept kept(blocks + 1);
+  fmt::print("{},kernel,fastest_us,median_us,items,fastest_ns_per_item\n", bench::common_columns());
+  const auto bonds = static_cast<std::size_t>(s.balls.n_grains) * dem::k_grain_bonds;
+  if (s.scene.bond.form == dem::BondForm::history_free) {
+    measure(common, "bonds", bonds, repeats, [&] { run_bonds(s, kept); });
+  }
+  measure(common, "ball contacts", s.contacts.n_pairs(), repeats, [&] { dem::evaluate_ball_contacts(s); });
+  measure(common, "wall contacts", s.contacts.wall_pairs.size(), repeats, [&] { dem::evaluate_wall_contacts(s); });
+  const auto references = static_cast<std::size_t>(s.references.start[blocks]);
+  measure(common, "ordered sums", references, repeats, [&] { run_sums(s, kept); });
+  measure(common, "search", static_cast<std::size_t>(s.balls.n_balls()), std::max(repeats / 20, 3),
+          [&] { s.rebuild_candidates(); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return bench::run_benchmark(argc, "bench_kernels FOLDER|CASE [threads] [repeats]", [&] {
+    omp_set_num_threads(bench::argument(argc, argv, 2, omp_get_num_procs()));
+    measure_all(argv[1], bench::argument(argc, argv, 3, 200));
+    return 0;
+  });
+}
