@@ -24,8 +24,8 @@ test_packages=(
   python3 python3-numpy python3-h5py python3-matplotlib
 )
 
-# See docs/verification/independent-codes.md; no other check uses them.
-peer_packages=(lammps yade python3 python3-numpy python3-matplotlib)
+# See docs/verification/independent-codes.md and bench/peers; no other check uses them.
+peer_packages=(lammps liggghts yade mpi-default-bin python3 python3-numpy python3-matplotlib)
 
 usage() {
   echo "usage: tools/install_dependencies.sh [--list] build|test|peers" >&2

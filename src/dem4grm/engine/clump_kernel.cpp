@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dem4grm/core/blocks.hpp"
+#include "dem4grm/core/registers.hpp"
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/laws/local_damping.hpp"
 #include "dem4grm/laws/rigid_rotation.hpp"
@@ -11,26 +12,45 @@ namespace dem {
 
 namespace {
 
+constexpr int k_references_ahead = 16;
+
+/// Three numbers of a vector in one register; the fourth lane holds whatever lies beside them, and nobody reads it.
 struct Load {
-  Vec3 force, torque;
+  Four force{}, torque{};
 };
 
 /// Net force and torque about the centroid of clump c, over its contact rows in order.
-Load gather(const Simulation& s, std::size_t c) {
-  const Vec3 centroid = s.clumps.clumps[c].position;
+///   force = sign (F_s - n F_n),   torque = (ball - centroid + sign lever n) x force     (ContactTable)
+template <bool dashpots>
+DEM_INLINE Load gather(const Simulation& s, std::size_t c) {
+  const Vec3& at = s.clumps.clumps[c].position;
+  const Four centroid{at.x, at.y, at.z, 0.0};
   const ContactTable& t = s.contacts;
+  const ContactState* const states = t.state.data();
+  const double* const radius_i = t.radius_i.data();
+  const double* const radius_j = t.radius_j.data();
+  const double* const x = s.balls.component(BallComponent::x);
+  const int* const rows = s.references.row.data();
+  const int* const places = s.references.place.data();
   const std::size_t owner = static_cast<std::size_t>(s.balls.n_blocks) + c;
+  const int end = s.references.start[owner + 1], last = s.references.start.back() - 1;
   Load load;
-  for (int k = s.references.start[owner]; k < s.references.start[owner + 1]; ++k) {
-    const auto row = static_cast<std::size_t>(s.references.row[static_cast<std::size_t>(k)]);
-    const int place = s.references.place[static_cast<std::size_t>(k)];
-    const bool second = (place & ContactReferences::k_second) != 0;
+  for (int k = s.references.start[owner]; k < end; ++k) {
+    // Beyond the end lie the references of the next clump.
+    __builtin_prefetch(states + rows[std::min(k + k_references_ahead, last)]);
+    const auto row = static_cast<std::size_t>(rows[k]);
+    const ContactState& contact = states[row];
+    const bool second = (places[k] & ContactReferences::k_second) != 0;
     const double sign = second ? -1.0 : 1.0;
-    const double lever = second ? t.lever_j(row) : t.lever_i(row);
-    const Vec3 f = t.force(row) * sign;
-    const Vec3 arm = s.balls.position(place & ~ContactReferences::k_second) - centroid;
-    load.force += f;
-    load.torque += cross(arm, f) + t.couple(row) * lever;
+    const double lever = (second ? radius_j[row] : radius_i[row]) - 0.5 * contact.overlap;
+    const Four n = load_four(&contact.normal.x);
+    Four shear = load_four(&contact.shear.x);
+    if constexpr (dashpots) shear += Four{t.damping_x[row], t.damping_y[row], t.damping_z[row], 0.0};
+    const Four force = (shear - n * contact.normal_force) * sign;
+    const double* ball = x + (places[k] & ~ContactReferences::k_second);
+    const Four arm = Four{ball[0], ball[k_lanes], ball[2 * k_lanes], 0.0} - centroid + n * (sign * lever);
+    load.force += force;
+    load.torque += cross(arm, force);
   }
   return load;
 }
@@ -63,6 +83,9 @@ struct alignas(64) ClumpLanes {
 
 DEM_INLINE void put(ClumpLane (&to)[3], std::size_t lane, const Vec3& v) {
   to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
+}
+DEM_INLINE void put(ClumpLane (&to)[3], std::size_t lane, const Four& v) {
+  to[0][lane] = v[0], to[1][lane] = v[1], to[2][lane] = v[2];
 }
 DEM_INLINE Vec3 take(const ClumpLane (&from)[3], std::size_t lane) {
   return {from[0][lane], from[1][lane], from[2][lane]};
@@ -113,13 +136,14 @@ DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double alpha) {
 }
 
 /// Clumps [begin, end), at most k_clump_lanes of them; returns the largest speed of a pebble squared.
+template <bool dashpots>
 double advance(Simulation& s, std::size_t begin, std::size_t end) {
   const double dt = s.dt, alpha = s.scene.integration.local_damping;
   ClumpLanes c;
   for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) {
     // Lanes without a clump move the first one again, and nobody looks.
     const std::size_t k = begin + lane < end ? begin + lane : begin;
-    load(s.clumps.clumps[k], gather(s, k), c, lane);
+    load(s.clumps.clumps[k], gather<dashpots>(s, k), c, lane);
   }
 #pragma omp simd
   for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) move(c, lane, dt, alpha);
@@ -132,17 +156,26 @@ double advance(Simulation& s, std::size_t begin, std::size_t end) {
   return top_speed2;
 }
 
-}  // namespace
-
-void advance_clumps(Simulation& s) {
+template <bool dashpots>
+void advance_all(Simulation& s) {
   const auto first = static_cast<std::size_t>(s.balls.n_blocks);
   for_each_block(s.clumps.clumps.size(), k_clump_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
     double top_speed2 = 0.0;
     for (std::size_t c = begin; c < end; c += k_clump_lanes) {
-      top_speed2 = std::max(top_speed2, advance(s, c, std::min(c + k_clump_lanes, end)));
+      top_speed2 = std::max(top_speed2, advance<dashpots>(s, c, std::min(c + k_clump_lanes, end)));
     }
     s.block_top_speed2[first + block] = top_speed2;
   });
+}
+
+}  // namespace
+
+void advance_clumps(Simulation& s) {
+  if (s.contacts.has_dashpots()) {
+    advance_all<true>(s);
+  } else {
+    advance_all<false>(s);
+  }
 }
 
 }  // namespace dem
