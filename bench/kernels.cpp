@@ -51,6 +51,7 @@ void measure(const std::string& common, const char* name, std::size_t items, int
 void measure_all(const std::string& source, int repeats) {
   bench::Loaded loaded = bench::specimen_of(source);
   dem::Simulation& s = *loaded.specimen.simulation;
+  s.set_time_step(dem::k_frozen_time_step);
   s.step();
   const std::string common = bench::common_row(loaded.test.name, s);
   const auto blocks = static_cast<std::size_t>(s.balls.n_blocks);

@@ -26,7 +26,11 @@ FEWEST = 50
 
 def functions(path):
     """Pairs (name, instruction lines) of a file."""
-    listing = subprocess.run(["objdump", "-d", "-C", "--no-show-raw-insn", path], capture_output=True, text=True)
+    try:
+        listing = subprocess.run(["objdump", "-d", "-C", "--no-show-raw-insn", path], capture_output=True, text=True)
+    except OSError as error:
+        print(f"instructions: {error}", file=sys.stderr)
+        sys.exit(2)
     if listing.returncode != 0:
         print(f"instructions: {listing.stderr.strip()}", file=sys.stderr)
         sys.exit(2)

@@ -104,7 +104,8 @@ void add_check(CLI::App& app) {
   verb->add_option("CASE", options->case_path, "case file");
   add_set_option(*verb, options->settings);
   verb->add_option("-j,--threads", options->threads,
-                   "number of threads of the forecast; default: one or all, whatever is faster here")
+                   "threads of the forecast; by default one or all,\nwhatever is faster here")
+      ->type_name("N")
       ->check(CLI::Range(1, 1024));
   verb->add_flag("--brief", options->is_brief, "no trial, and so no forecast of time and disk");
   verb->add_flag("--json", options->is_json, "as one JSON object on stdout");

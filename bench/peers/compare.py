@@ -32,7 +32,7 @@ STEPS = {"spheres": (4000, 1000, 1000, 1000, 150), "clumps": (8000, 1500, 1500, 
 
 
 def run(command, folder, log, cores):
-    """Output of a program that must succeed, on the first `cores` processors."""
+    """Output of a program that must succeed; `cores` threads or processes."""
     environment = dict(os.environ, OMP_NUM_THREADS=str(cores), OMP_PROC_BIND="true", GOMP_SPINCOUNT="100000",
                        OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     done = subprocess.run([str(word) for word in command], cwd=folder, env=environment, text=True, check=False,
@@ -55,7 +55,7 @@ def size_of(folder, scene):
 def write_lammps_data(folder, scene, form):
     """The balls as LAMMPS (sphere) and LIGGGHTS (granular) read them; molecules name the clumps."""
     path = folder / f"{scene}.{'data' if form == 'lammps' else 'liggghts'}"
-    if path.exists():
+    if path.exists() and path.stat().st_mtime >= (folder / f"{scene}.csv").stat().st_mtime:
         return
     rows, size = balls_of(folder, scene), size_of(folder, scene)
     with open(path, "w", encoding="utf-8") as file:
@@ -82,7 +82,8 @@ def run_dem4grm(folder, scene, steps, options):
 
 
 def loop_times(text):
-    return [(float(t), int(n)) for t, n in re.findall(r"Loop time of (\S+) on \d+ procs for \d+ steps with (\d+) atoms", text)]
+    pattern = r"Loop time of (\S+) on \d+ procs for \d+ steps with (\d+) atoms"
+    return [(float(t), int(n)) for t, n in re.findall(pattern, text)]
 
 
 def run_lammps(folder, scene, steps, options, law="same"):
@@ -104,20 +105,23 @@ def run_liggghts(folder, scene, steps, options):
     write_lammps_data(folder, scene, "liggghts")
     x, y, z = size_of(folder, scene)
     command = ["mpirun", "-np", options.cores, "liggghts", "-in", HERE / "liggghts.in", "-log", "none"]
-    text = run(command + variables(scene=scene, young=YOUNG, poisson=POISSON, friction=FRICTION, steps=steps, x=x, y=y, z=z),
-               folder, f"{scene}.liggghts.log", options.cores)
+    values = variables(scene=scene, young=YOUNG, poisson=POISSON, friction=FRICTION, steps=steps, x=x, y=y, z=z)
+    text = run(command + values, folder, f"{scene}.liggghts.log", options.cores)
     seconds, balls = loop_times(text)[-1]
     return balls, 0, seconds
 
 
 def run_yade(folder, scene, steps, options):
     command = ["yade", "-n", "-x", f"-j{options.cores}", HERE / "yade.py", ".", scene, steps, YOUNG, POISSON, FRICTION]
-    balls, touching, seconds = re.search(r"RESULT (\d+) (\d+) (\S+)", run(command, folder, f"{scene}.yade.log",
-                                                                          options.cores)).groups()
+    text = run(command, folder, f"{scene}.yade.log", options.cores)
+    balls, touching, seconds = re.search(r"RESULT (\d+) (\d+) (\S+)", text).groups()
     return int(balls), int(touching), float(seconds)
 
 
-RUNNERS = {"dem4grm": run_dem4grm, "lammps": run_lammps, "lammps-fast": functools.partial(run_lammps, law="fast"), "liggghts": run_liggghts, "yade": run_yade}
+RUNNERS = {"dem4grm": run_dem4grm, "lammps": run_lammps, "lammps-fast": functools.partial(run_lammps, law="fast"),
+           "liggghts": run_liggghts, "yade": run_yade}
+# What must be on the path for each of the others.
+PROGRAMS = {"lammps": "lmp", "lammps-fast": "lmp", "liggghts": "liggghts", "yade": "yade"}
 
 
 def report(speeds):
@@ -144,14 +148,14 @@ def main():
     if options.install:
         subprocess.run([str(ROOT / "tools/install_dependencies.sh"), "peers"], check=True)
     options.program = options.program.resolve()
-    found = {"dem4grm", *(code for code, command in (("lammps", "lmp"), ("lammps-fast", "lmp"), ("liggghts", "liggghts"), ("yade", "yade"))
-                          if shutil.which(command))}
+    found = {"dem4grm", *(code for code, program in PROGRAMS.items() if shutil.which(program))}
     if found == {"dem4grm"}:
         print("skipped: none of LAMMPS, LIGGGHTS and YADE is installed; tools/install_dependencies.sh peers")
         return 77
+    options.folder = options.folder.resolve()
     options.folder.mkdir(parents=True, exist_ok=True)
     if not (options.folder / "clusters-6000.csv").exists():
-        run([options.program, "make", options.folder.resolve()], ROOT, options.folder.resolve() / "make.log", options.cores)
+        run([options.program, "make", options.folder], options.folder, "make.log", options.cores)
     print("round,scene,code,cores,balls,touching_pairs,steps,seconds,million_ball_steps_per_second")
     speeds = {}
     for number in range(1, options.rounds + 1):
@@ -160,6 +164,8 @@ def main():
                 if code not in found or steps == 0:
                     continue
                 balls, touching, seconds = RUNNERS[code](options.folder, scene, steps, options)
+                if balls != len(balls_of(options.folder, scene)):
+                    raise RuntimeError(f"{code} has {balls} balls in scene {scene}: delete {options.folder} and try again")
                 speed = balls * steps / seconds * 1e-6
                 speeds.setdefault(scene, {}).setdefault(code, []).append(speed)
                 print(f"{number},{scene},{code},{options.cores},{balls},{touching},{steps},{seconds:.3f},{speed:.3f}",

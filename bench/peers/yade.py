@@ -34,14 +34,16 @@ for axis in range(0 if bonded else 3):  # bonded material knows no walls; a litt
 verlet = 2e-4 if not bonded else 3e-5
 if bonded:
     # All that touches at the start is bonded, contacts between clusters too: one law handles bonds and contacts.
-    loop = InteractionLoop([Ig2_Sphere_Sphere_ScGeom6D(interactionDetectionFactor=1.001)],
-                           [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True, setCohesionOnNewContacts=True)],
-                           [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(useIncrementalForm=True, always_use_moment_law=True)])
+    loop = InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom6D(interactionDetectionFactor=1.001)],
+        [Ip2_CohFrictMat_CohFrictMat_CohFrictPhys(setCohesionNow=True, setCohesionOnNewContacts=True)],
+        [Law2_ScGeom6D_CohFrictPhys_CohesionMoment(useIncrementalForm=True, always_use_moment_law=True)])
 else:
     loop = InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()],
                            [Ip2_FrictMat_FrictMat_MindlinPhys(betan=0.0, betas=0.0)],
                            [Law2_ScGeom_MindlinPhys_Mindlin()])
-O.engines = [ForceResetter(), InsertionSortCollider([Bo1_Sphere_Aabb(aabbEnlargeFactor=1.001), Bo1_Wall_Aabb()], verletDist=verlet), loop,
+boxes = [Bo1_Sphere_Aabb(aabbEnlargeFactor=1.001), Bo1_Wall_Aabb()]
+O.engines = [ForceResetter(), InsertionSortCollider(boxes, verletDist=verlet), loop,
              NewtonIntegrator(damping=0.2 if bonded else 0.0, gravity=(0, 0, 0))]
 O.dt = 1e-13
 O.step()

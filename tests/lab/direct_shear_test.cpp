@@ -123,7 +123,7 @@ TEST(FillTest, NoGrainIsCaughtForAnySeed) {
     EXPECT_EQ(fill.caught, 0) << "seed " << seed;
     EXPECT_LE(fill.largest_overlap, settings.overlap_goal) << "seed " << seed;
     EXPECT_EQ(fill.rubber.size(), static_cast<std::size_t>(grains.rubber_count));
-    EXPECT_LT(fill.alignment, 0.75) << "seed " << seed;
+    EXPECT_LT(fill.alignment, 0.80) << "seed " << seed;  // 0.6 at random, 1 when square to the box; few grains here
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
+#include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
@@ -81,7 +82,7 @@ TEST(LoadSpecimen, GivesBackWhatWasSaved) {
   const DirectShearCase test = tiny_case();
   Interrupter straight;
   run_direct_shear(test, straight);
-  StateArchive saved = state_at(test, straight.offers / 2);  // most offers are of the shear stage
+  StateArchive saved = state_at(test, straight.offers - 2);  // of the shear stage
   Specimen specimen = load_specimen(specimen_order(test), saved);
   EXPECT_EQ(specimen.simulation->clumps.clumps.size(), specimen.grains.gravel.size());
   for (std::size_t k = 0; k < specimen.grains.gravel.size(); ++k) {
@@ -103,7 +104,7 @@ TEST(LoadSpecimen, RefusesAStateOfTheFillAndAWrongNumbering) {
   EXPECT_THROW(load_specimen(specimen_order(test), of_fill), IoError);
   Interrupter straight;
   run_direct_shear(test, straight);
-  std::vector<StateEntry> entries = state_at(test, straight.offers / 2).entries();
+  std::vector<StateEntry> entries = state_at(test, straight.offers - 2).entries();
   for (StateEntry& e : entries) {
     if (e.name != "gravel_order") continue;
     auto& order = std::get<std::vector<std::int64_t>>(e.data);
@@ -111,6 +112,28 @@ TEST(LoadSpecimen, RefusesAStateOfTheFillAndAWrongNumbering) {
   }
   StateArchive wrong(entries);
   EXPECT_THROW(load_specimen(specimen_order(test), wrong), IoError);
+}
+
+TEST(Resume, AcrossChangesOfTheTimeStep) {
+  DirectShearCase test = tiny_case();
+  test.specimen.rubber_content = 0.0;
+  test.shear.displacement = 3e-3;
+  test.shear.velocity = 0.02;
+  test.recording.frame_interval = 3e-3;
+  Interrupter straight;
+  const DirectShearResult expected = run_direct_shear(test, straight);
+  ASSERT_GT(expected.steps, 3 * k_review_interval);
+  EXPECT_NE(expected.rows.front().time_step, expected.rows.back().time_step);
+  const int before = omp_get_max_threads();
+  for (const int from_end : {10, 25}) {
+    StateArchive state = state_at(test, straight.offers - from_end);
+    omp_set_num_threads(3);
+    LabObserver silent;
+    const DirectShearResult resumed = run_direct_shear(test, silent, &state);
+    omp_set_num_threads(before);
+    EXPECT_EQ(resumed.state_hash, expected.state_hash);
+    EXPECT_EQ(resumed.rows.back().time_step, expected.rows.back().time_step);
+  }
 }
 
 TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {

@@ -16,10 +16,10 @@ struct Companion {
 template <HertzOptions options>
 Companion companion_of(const Simulation& s, const HertzGeometry& g) {
   if (s.scene.bond.hertz_contact) {
-    const HertzForce f = hertz_mindlin<options>(s.second_neighbour, g.motion, s.dt);
+    const HertzForce f = hertz_mindlin<options>(s.second_neighbour, g.motion, s.last_dt);
     return {f.shear_total - g.normal * f.normal_total, f.shear, f.slip_work, f.dashpot_work};
   }
-  const SpringShear f = linear_spring_shear(s.bond, g.motion, s.dt);
+  const SpringShear f = linear_spring_shear(s.bond, g.motion, s.last_dt);
   return {f.shear, f.shear, f.slip_work, 0.0};
 }
 
@@ -44,7 +44,7 @@ void add_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLos
                                                      r,
                                                      r,
                                                      {h[0], h[w], h[2 * w]}},
-                                                    s.dt);
+                                                    s.last_dt);
       const Companion c = companion_of<options>(s, geometry);
       h[0] = c.shear.x, h[w] = c.shear.y, h[2 * w] = c.shear.z;
       const Vec3 couple = cross(geometry.normal, c.force);

@@ -12,8 +12,6 @@ namespace dem {
 
 namespace {
 
-constexpr int k_references_ahead = 16;
-
 /// Three numbers of a vector in one register; the fourth lane holds whatever lies beside them, and nobody reads it.
 struct Load {
   Four force{}, torque{};
@@ -113,13 +111,13 @@ void store(const ClumpLanes& c, std::size_t lane, Clump& body) {
 }
 
 /// Damping, leapfrog and rotation of one lane.
-DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double alpha) {
+DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double kick, double alpha) {
   const Vec3 velocity_before = take(c.velocity, lane), spin_before = take(c.spin, lane);
   const Vec3 all_force = take(c.force, lane), all_torque = take(c.torque, lane);
   const Vec3 force = locally_damped(all_force, velocity_before, alpha);
   const Vec3 torque = locally_damped(all_torque, spin_before, alpha);
-  const Vec3 velocity = velocity_before + force * (dt / c.mass[lane]);
-  const Vec3 momentum = take(c.momentum, lane) + torque * dt;
+  const Vec3 velocity = velocity_before + force * (kick / c.mass[lane]);
+  const Vec3 momentum = take(c.momentum, lane) + torque * kick;
   const Vec3 inertia = take(c.inertia, lane);
   const Quaternion before{c.orientation[0][lane], c.orientation[1][lane], c.orientation[2][lane],
                           c.orientation[3][lane]};
@@ -131,14 +129,14 @@ DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double alpha) {
   c.orientation[0][lane] = turn.orientation.w, c.orientation[1][lane] = turn.orientation.x;
   c.orientation[2][lane] = turn.orientation.y, c.orientation[3][lane] = turn.orientation.z;
   c.lost[lane] =
-      0.5 * dt *
+      0.5 * kick *
       (dot(all_force - force, velocity + velocity_before) + dot(all_torque - torque, turn.spin + spin_before));
 }
 
 /// Clumps [begin, end), at most k_clump_lanes of them; returns the largest speed of a pebble squared.
 template <bool dashpots>
 double advance(Simulation& s, std::size_t begin, std::size_t end) {
-  const double dt = s.dt, alpha = s.scene.integration.local_damping;
+  const double dt = s.dt, kick = s.kick_time(), alpha = s.scene.integration.local_damping;
   ClumpLanes c;
   for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) {
     // Lanes without a clump move the first one again, and nobody looks.
@@ -146,7 +144,7 @@ double advance(Simulation& s, std::size_t begin, std::size_t end) {
     load(s.clumps.clumps[k], gather<dashpots>(s, k), c, lane);
   }
 #pragma omp simd
-  for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) move(c, lane, dt, alpha);
+  for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) move(c, lane, dt, kick, alpha);
   double top_speed2 = 0.0;
   for (std::size_t k = begin; k < end; ++k) {
     store(c, k - begin, s.clumps.clumps[k]);

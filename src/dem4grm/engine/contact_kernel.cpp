@@ -177,7 +177,7 @@ void evaluate(Simulation& s) {
   const double ball_radius = s.scene.rubber_ball_radius;
   const RowConstants rubber{ball_radius, ball_radius, s.contacts.between_rubber_balls};
   const std::size_t rubber_rows = s.contacts.n_equal_rows();
-  const double dt = s.dt;
+  const double dt = s.last_dt;
   const std::size_t n = s.contacts.n_pair_rows();
   std::vector<double>& slip_of_block = s.scratch_slip;
   std::vector<double>& dashpot_of_block = s.scratch_dashpot;

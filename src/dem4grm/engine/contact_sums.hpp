@@ -7,8 +7,6 @@
 
 namespace dem {
 
-inline constexpr int k_references_ahead = 16;
-
 /// Adds the contact rows that act on a block, in row order.
 ///   force = sign (F_s - n F_n),   torque = lever n x F_s     (ContactTable)
 /// The fourth lanes hold what is left of normal force and overlap, and nobody reads them.

@@ -139,8 +139,8 @@ void add_broken_pair(const Simulation& s, const BondMotion& m, double* history, 
   constexpr std::size_t w = k_lanes;
   const double r = s.scene.rubber_ball_radius;
   const HertzGeometry geometry = hertz_geometry(
-      {m.branch, m.relative_velocity, m.spin_i, m.spin_j, r, r, {history[0], history[w], history[2 * w]}}, s.dt);
-  const HertzForce f = hertz_mindlin<options>(s.second_neighbour, geometry.motion, s.dt);
+      {m.branch, m.relative_velocity, m.spin_i, m.spin_j, r, r, {history[0], history[w], history[2 * w]}}, s.last_dt);
+  const HertzForce f = hertz_mindlin<options>(s.second_neighbour, geometry.motion, s.last_dt);
   history[0] = f.shear.x;
   history[w] = f.shear.y;
   history[2 * w] = f.shear.z;
@@ -166,13 +166,13 @@ void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLo
       if (broken[lane] == 0) {
         BondHistory history{{h[0], h[w], h[2 * w]}, {h[3 * w], h[4 * w], h[5 * w]}};
         bool breaks = false;
-        const BondForce f = incremental_bond(s.bond, m, s.dt, history, breaks);
+        const BondForce f = incremental_bond(s.bond, m, s.last_dt, history, breaks);
         if (!breaks) {
           h[0] = history.shear.x, h[w] = history.shear.y, h[2 * w] = history.shear.z;
           h[3 * w] = history.moment.x, h[4 * w] = history.moment.y, h[5 * w] = history.moment.z;
           add_load(out, load_at(pair.i, lane), f.force, f.couple + f.moment);
           add_load(out, load_at(pair.j, lane), -f.force, f.couple - f.moment);
-          losses.dashpot[lane] += f.dashpot_power * s.dt;
+          losses.dashpot[lane] += f.dashpot_power * s.last_dt;
           continue;
         }
         broken[lane] = 1;

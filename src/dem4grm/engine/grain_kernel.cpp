@@ -42,7 +42,7 @@ template <HertzOptions options>
 void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g, BlockForces& out,
                            BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
-  const double r = s.scene.rubber_ball_radius, reach2 = 4.0 * r * r, dt = s.dt;
+  const double r = s.scene.rubber_ball_radius, reach2 = 4.0 * r * r, dt = s.last_dt;
   const HertzParameters p = s.second_neighbour;
   for (std::size_t q = 0; q < k_grain_second_neighbours; ++q) {
     const SlotPair pair = k_second_neighbours_of_grain[q];
@@ -82,7 +82,7 @@ void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g
 /// Local damping, leapfrog and rotation of all balls of a block; returns the largest speed squared.
 double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, const double* inverse_mass,
                  double* damping_work) {
-  const double dt = s.dt, alpha = s.scene.integration.local_damping;
+  const double dt = s.dt, kick = s.kick_time(), alpha = s.scene.integration.local_damping;
   // Solid ball: I = 2/5 m r^2.
   const double inertia_factor = 2.5 / (s.scene.rubber_ball_radius * s.scene.rubber_ball_radius);
   alignas(64) double top[k_lanes] = {};
@@ -96,7 +96,7 @@ double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, co
       const Vec3 torque{of_ball[3 * k_lanes], of_ball[4 * k_lanes], of_ball[5 * k_lanes]};
       const Vec3 v = load3(g.vx, g.vy, g.vz, k), w = load3(g.wx, g.wy, g.wz, k);
       const Vec3 damped_force = locally_damped(force, v, alpha), damped_torque = locally_damped(torque, w, alpha);
-      const double per_mass = inverse_mass[lane] * dt;
+      const double per_mass = inverse_mass[lane] * kick;
       const Vec3 new_v = v + damped_force * per_mass;
       const Vec3 new_w = w + damped_torque * (per_mass * inertia_factor);
       g.vx[k] = new_v.x;
@@ -120,7 +120,7 @@ double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, co
   }
   double fastest = 0.0;
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-    damping_work[lane] += 0.5 * dt * lost[lane];
+    damping_work[lane] += 0.5 * kick * lost[lane];
     fastest = std::max(fastest, inverse_mass[lane] > 0.0 ? top[lane] : 0.0);
   }
   return fastest;
@@ -138,7 +138,7 @@ void advance_block(Simulation& s, std::size_t block) {
   if (s.scene.bond.form == BondForm::incremental) {
     add_incremental_bonds(s, block, load, losses);
   } else {
-    add_history_free_bonds(s.bond, g, s.dt, load, losses);
+    add_history_free_bonds(s.bond, g, s.last_dt, load, losses);
   }
   if (!s.grain_history.companion_shear.empty()) add_bond_companions(s, block, load, losses);
   const std::size_t first = block * k_lanes;

@@ -212,6 +212,11 @@ HertzParameters Simulation::contact_parameters(int ball_i, int ball_j, int wall)
 
 void Simulation::set_time_step(double step) {
   if (!(step > 0.0)) throw InputError("the time step must be positive");
+  dt = last_dt = step;
+}
+
+void Simulation::change_time_step(double step) {
+  if (!(step > 0.0)) throw InputError("the time step must be positive");
   dt = step;
 }
 

@@ -80,8 +80,13 @@ class Simulation {
   /// One time step.
   void step();
 
+  /// For a start: present velocities count as if they had led here with this step.
   void set_time_step(double dt);
+  /// In the middle of a motion: the contacts of the next step still see the displacements of the step before.
+  void change_time_step(double dt);
   [[nodiscard]] double time_step() const { return dt; }
+  /// Time between the half steps before and after the present instant, over which forces act; s.
+  [[nodiscard]] double kick_time() const { return 0.5 * (last_dt + dt); }
   void set_friction(const FrictionTable& friction);
   /// Friction of every material pair by the mixing rule, of walls from the walls themselves.
   [[nodiscard]] FrictionTable material_friction() const;
@@ -125,8 +130,9 @@ class Simulation {
   std::vector<WallReaction> reactions;     ///< [n_walls]
   std::vector<Vec3> last_wall_velocity;    ///< [n_walls] before the present step
   Ledger ledger;
-  double dt = 0.0;    ///< s
-  double time = 0.0;  ///< s
+  double dt = 0.0;       ///< s
+  double last_dt = 0.0;  ///< s, of the step that led to the present positions
+  double time = 0.0;     ///< s
   std::int64_t steps = 0;
   std::int64_t rebuilds = 0;
   CandidateMargins margins;

@@ -113,6 +113,7 @@ void exchange_settings(StateArchive& archive, Simulation& s) {
   archive.exchange("servo_gain", s.servo.gain);
   archive.exchange("servo_cap", s.servo.speed_cap);
   archive.exchange("time_step", s.dt);
+  archive.exchange("last_time_step", s.last_dt);
   archive.exchange("time", s.time);
   archive.exchange("steps", s.steps);
   archive.exchange("rebuilds", s.rebuilds);

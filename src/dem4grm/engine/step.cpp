@@ -18,6 +18,7 @@ void Simulation::step() {
   advance_clumps(*this);
   move_walls(*this);
   time += dt;
+  last_dt = dt;
   ++steps;
 }
 
@@ -42,7 +43,8 @@ void move_walls(Simulation& s) {
   for (std::size_t w = 0; w < s.walls.size(); ++w) {
     Wall& wall = s.walls[w];
     // Work of the force of this instant over half the step before and half the step after it.
-    s.ledger.boundary -= dot(s.reactions[w].force, wall.velocity + s.last_wall_velocity[w]) * (0.5 * s.dt);
+    const Vec3 both_halves = wall.velocity + s.last_wall_velocity[w] * (s.last_dt / s.dt);
+    s.ledger.boundary -= dot(s.reactions[w].force, both_halves) * (0.5 * s.dt);
     wall.corner += wall.velocity * s.dt;
     s.last_wall_velocity[w] = wall.velocity;
     fastest_wall2 = std::max(fastest_wall2, dot(wall.velocity, wall.velocity));

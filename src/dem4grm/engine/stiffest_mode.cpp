@@ -246,7 +246,7 @@ double stiffest_mode(const Simulation& s, double dt, int lanczos_steps) {
 
 double stable_time_step(const Simulation& s, double dt) {
   const double lambda = stiffest_mode(s, dt);
-  if (!(lambda > 0.0)) return std::numeric_limits<double>::infinity();
+  if (lambda == 0.0) return std::numeric_limits<double>::infinity();
   return lambda < 4.0 ? dt * std::sqrt(4.0 / lambda) : dt * 4.0 / lambda;
 }
 

@@ -13,18 +13,19 @@
 
 namespace dem {
 
-/// Products with the matrix; with these the largest eigenvalue is met within one per cent (tests).
+/// Products with the matrix; with these the largest eigenvalue is met from below within one per cent.
 inline constexpr int k_lanczos_steps = 30;
 
 /// lambda(dt) of the present contacts, dimensionless; 0 when nothing is joined. The contacts are those of the last
 /// evaluation. The same bits for every number of threads and every pack width.
 double stiffest_mode(const Simulation& s, double dt, int lanczos_steps = k_lanczos_steps);
 
-/// A bound from below for the largest stable time step, s, from lambda at a time step near it; infinite when nothing is
-/// joined.
+/// The largest stable time step, s, from lambda at a time step near it; infinite when nothing is joined, no number when
+/// the state is none.
 ///
 /// formula:  dt sqrt(4 / lambda) when that is longer than dt, else dt 4 / lambda.
-/// lambda grows with dt at least in proportion (dashpots alone) and at most with its square (springs alone).
+/// lambda grows with dt at least in proportion (dashpots alone) and at most with its square (springs alone), so of the
+/// two the formula takes the one that errs to the short side.
 double stable_time_step(const Simulation& s, double dt);
 
 }  // namespace dem

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/engine/time_step.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/stiffest_mode.hpp"
 #include "dem4grm/laws/mixing.hpp"
 
@@ -254,8 +257,16 @@ void review_time_step(Simulation& s, double longest) {
   const int interval = s.balls.n_grains > 0 ? k_review_interval_with_rubber : k_review_interval;
   const IntegrationSettings& settings = s.scene.integration;
   if (s.steps % interval != 0 || settings.time_step_rule == TimeStepRule::diagonal) return;
-  const double stable = stable_time_step(s, s.dt / settings.time_step_safety);
-  s.set_time_step(std::min(rounded_down_to_nanosecond(settings.time_step_safety * stable), longest));
+  const double safety = settings.time_step_safety, stable = stable_time_step(s, s.dt / safety);
+  const double next = rounded_down_to_nanosecond(std::min(safety * stable, k_largest_rise * s.dt));
+  if (!(next >= k_largest_fall * s.dt)) {
+    throw PhysicsError(fmt::format(
+        "the stiffest contacts allow a time step of {:.3g} s after {:.3g} s at the last look: they are pressed "
+        "together "
+        "far beyond what the stress explains (step {}). Try a smaller integration.time_step_safety or a slower motion",
+        safety * stable, s.dt, s.steps));
+  }
+  s.change_time_step(std::min(next, longest));
 }
 
 }  // namespace dem

@@ -110,14 +110,14 @@ void evaluate_touch(Simulation& s, std::size_t row, int wall, const WallView& vi
   HertzMotion m;
   m.overlap = radius - view.distance;
   m.normal_speed = dot(relative, n);
-  m.old_overlap = m.overlap + m.normal_speed * s.dt;
+  m.old_overlap = m.overlap + m.normal_speed * s.last_dt;
   const double lever = radius - 0.5 * m.overlap;
   m.shear_velocity = perpendicular(relative - cross(spin, n * lever), n);
-  m.carried_shear = carried_at_wall(c.shear(row), n, 0.25 * s.dt * dot(spin, n));
+  m.carried_shear = carried_at_wall(c.shear(row), n, 0.25 * s.last_dt * dot(spin, n));
   const HertzParameters p{c.hertz[row], c.shear_ratio[row], c.friction[row],
                           options.dashpots ? c.normal_dashpot[row] : 0.0,
                           options.dashpots ? c.shear_dashpot[row] : 0.0};
-  const HertzForce f = hertz_mindlin<options>(p, m, s.dt);
+  const HertzForce f = hertz_mindlin<options>(p, m, s.last_dt);
   const Vec3 force = f.shear_total - n * f.normal_total;
   c.state[row] = {n, f.normal_total, f.shear, m.overlap};
   if constexpr (options.dashpots) set_damping(c, row, f.shear_total - f.shear);

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 // Of a real specimen against the stand-in, median of a step, measured at full size and 100 kPa: gravel 0.9 to 1.0,
 // rubber 1.25 (second neighbours close, walls are nearer).
 constexpr double k_step_of_gravel = 0.95, k_step_of_rubber = 1.25;
-// Of the time step in shear against that of the preparation, gravel at 100 kPa (decision 7); rubber keeps its own.
+// Of the time step in shear against that of the preparation, gravel at 100 kPa (decision 13); rubber keeps its own.
 constexpr double k_growth_of_time_step = 1.28;
 // Fill in units of a step under load: 6,600 for gravel, 9,000 with VRC 25, 19,000 for rubber alone; and steps to come to
 // rest twice.
@@ -77,7 +77,8 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   const double rubber_share = static_cast<double>(s.balls.n_rubber_balls()) / s.balls.n_balls();
   out.step_time *= k_step_of_gravel + (k_step_of_rubber - k_step_of_gravel) * rubber_share;
 
-  const double growth = grains.rubber_count > 0 ? 1.0 : k_growth_of_time_step;
+  const bool grows = grains.rubber_count == 0 && test.integration.time_step_rule == TimeStepRule::true_limit;
+  const double growth = grows ? k_growth_of_time_step : 1.0;
   const double shear_steps = static_cast<double>(facts.steps) / growth;
   // The plate comes down from the height of the fill at its top speed for most of the way.
   const double layer = grains.solid_volume() / (test.box.length * test.box.width);

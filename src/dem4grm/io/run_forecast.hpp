@@ -11,9 +11,9 @@
 namespace dem {
 
 struct RunForecast {
-  int threads = 0;                ///< with which it was tried and is forecast: the number that is fastest here
+  int threads = 0;                ///< of the trial: as asked for, or what is faster here
   double step_time = 0.0;         ///< s, of a step of the loaded specimen
-  std::int64_t steps = 0;         ///< all stages
+  std::int64_t steps = 0;         ///< all stages, the fill in steps as dear as those of a loaded specimen
   double preparation_time = 0.0;  ///< s, fill, compression and final friction
   double test_time = 0.0;         ///< s, shear, or the compression of a grain
   double results_size = 0.0;      ///< bytes that stay when the run is done

@@ -5,6 +5,8 @@
 #include <string>
 #include <tuple>
 
+#include "dem4grm/core/error.hpp"
+
 namespace dem {
 namespace {
 
@@ -56,6 +58,8 @@ void exchange(StateArchive& archive, std::vector<ShearRow>& rows) {
     for (const double* v : numbers_of(r)) numbers.push_back(*v);
   }
   archive.exchange("rows", numbers);
+  if (numbers.size() % n != 0)
+    throw IoError("the saved rows of the record have another length than those of this build");
   rows.resize(numbers.size() / n);
   for (std::size_t k = 0; k < rows.size() * n; ++k) *numbers_of(rows[k / n])[k % n] = numbers[k];
 }

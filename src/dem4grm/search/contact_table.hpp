@@ -85,6 +85,9 @@ struct ContactTable {
   void clear_constants();
 };
 
+/// How many references ahead of the present one the bodies that add up their contacts fetch a row.
+inline constexpr int k_references_ahead = 16;
+
 /// For every owner (block of rubber grains, then clump): which rows act on it, where, and with which sign.
 struct ContactReferences {
   static constexpr int k_second = 1 << 30;  ///< set in `place` when the owner is body j of the row

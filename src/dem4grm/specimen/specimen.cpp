@@ -227,6 +227,7 @@ class Preparation {
   void rest() {
     Simulation& s = *out_.simulation;
     bring_to_rest(s, out_.load, order_.equilibrium, rest_, [&] {
+      static_assert(k_review_interval % k_rest_interval == 0 && k_review_interval_with_rubber % k_rest_interval == 0);
       review_time_step(s, out_.report.time_step.seconds);
       if (rest_.steps % (5 * k_rest_interval) == 0) {
         const std::string trouble = find_trouble(s, out_.bounds, k_overlap_limit);

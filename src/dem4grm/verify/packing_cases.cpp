@@ -38,7 +38,8 @@ Scene smooth_materials() {
 }
 
 /// A random fill of a cube-like box at the solid fraction, relaxed without friction.
-Simulation filled_box(const GrainList& grains, double side, double solid_fraction, double friction) {
+Simulation filled_box(const GrainList& grains, double side, double solid_fraction, double friction,
+                      std::uint64_t seed = 1) {
   BoxSettings box;
   box.length = box.width = side;
   box.height = box.upper_height = 2.5 * side;
@@ -47,6 +48,7 @@ Simulation filled_box(const GrainList& grains, double side, double solid_fractio
   FillSettings fill_settings;
   fill_settings.void_ratio = 1.0 / solid_fraction - 1.0;
   fill_settings.growth = 0.01;
+  fill_settings.seed = seed;
   fill_settings.overlap_goal = 0.1;
   const Fill fill = make_fill(grains, box, scene, fill_settings, {});
   scene.shapes = grains.shapes;
@@ -107,9 +109,9 @@ std::vector<Level> unload(int n, double side) {
 }
 
 /// A loose fill is compressed by its lid with friction between the spheres.
-Level compress(int n, double side, double pressure) {
+Level compress(int n, double side, double pressure, std::uint64_t seed) {
   const GrainList grains = equal_spheres(n);
-  Simulation s = filled_box(grains, side, 0.52, 0.3);
+  Simulation s = filled_box(grains, side, 0.52, 0.3, seed);
   s.scene.integration.local_damping = 0.3;
   s.set_time_step(choose_time_step(s, pressure).seconds);
   // The plate strains the packing by 3e-3 in the time in which the pressure moves a sphere by its own size.
@@ -167,9 +169,15 @@ void run_frictionless(Findings& f) {
 }
 
 void run_friction(Findings& f) {
-  const Level level = compress(3000, 13.5 * k_diameter, 300.0);
-  f.absolute("solid fraction of the core", "1", 0.593, level.state.solid_fraction, 0.01, k_source);
-  f.absolute("contacts of a sphere that is no rattler", "1", 4.5, level.state.coordination, 0.25, k_source);
+  constexpr int k_specimens = 3;
+  double solid_fraction = 0.0, coordination = 0.0;
+  for (std::uint64_t seed = 1; seed <= k_specimens; ++seed) {
+    const PackingState state = compress(3000, 13.5 * k_diameter, 300.0, seed).state;
+    solid_fraction += state.solid_fraction / k_specimens;
+    coordination += state.coordination / k_specimens;
+  }
+  f.absolute("solid fraction of the core", "1", 0.593, solid_fraction, 0.01, k_source);
+  f.absolute("contacts of a sphere that is no rattler", "1", 4.5, coordination, 0.25, k_source);
   f.remark(
       "The published packing was compressed from all sides without walls, this one by a lid in a smooth box, so the "
       "comparison is a loose one: without friction the numbers would be 0.639 and 6.0.");
@@ -186,11 +194,11 @@ void add_packing_cases(std::vector<VerificationCase>& cases) {
        "fraction of random close packing, 0.639, and six contacts for each sphere that carries load (rattlers, with "
        "fewer than four, are taken out repeatedly). A contact that pulls, slips or is counted twice would change both.",
        Extent::full, run_frictionless});
-  cases.push_back(
-      {"packing-rough-spheres", "Packing of spheres with friction 0.3",
-       "3000 spheres with friction 0.3 are compressed by the lid from a loose fill to 300 Pa, 2·10⁻⁶ of E*. Friction "
-       "keeps the packing looser and with fewer contacts.",
-       Extent::full, run_friction});
+  cases.push_back({"packing-rough-spheres", "Packing of spheres with friction 0.3",
+                   "Three specimens of 3000 spheres with friction 0.3 are compressed by the lid from a loose fill to "
+                   "300 Pa, 2·10⁻⁶ of E*. Friction "
+                   "keeps the packing looser and with fewer contacts.",
+                   Extent::full, run_friction});
 }
 
 }  // namespace dem

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the forecast of a run is made of; how near it comes to a real run of the program is in tests/lab.
+// What the forecast of a run is made of. The size of the output is held against a real run in tests/lab; times depend on
+// the machine and are not tested.
 #include <gtest/gtest.h>
 
 #include "dem4grm/io/run_forecast.hpp"
