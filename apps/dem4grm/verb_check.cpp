@@ -15,8 +15,6 @@
 namespace dem {
 namespace {
 
-constexpr double k_trial = 2.0;  // s
-
 struct CheckOptions {
   std::string case_path;
   std::vector<std::string> settings;
@@ -62,8 +60,8 @@ std::string forecast_text(const RunForecast& f) {
           ? fmt::format(": specimen {}, shear {}", duration_text(f.preparation_time), duration_text(f.test_time))
           : "";
   line("time", fmt::format("about {} with {} thread(s){}", duration_text(f.time()), f.threads, parts));
-  line("",
-       fmt::format("{} steps of {:.3g} ms, from a trial of two seconds on this machine", f.steps, f.step_time * 1e3));
+  line("", fmt::format("{} steps of {:.3g} ms, from a trial of {:.2g} s on this machine", f.steps, f.step_time * 1e3,
+                       f.trial));
   if (f.results_size > 0.0) {
     line("disk", fmt::format("about {:.0f} MB, and {:.0f} MB for the checkpoint while it runs", f.results_size / 1e6,
                              f.checkpoint_size / 1e6));
@@ -81,7 +79,7 @@ void check(const CheckOptions& options) {
   const LoadedCase loaded = load_case(options.case_path, overrides);
   const CaseFacts facts = derive_facts(loaded.test);
   std::optional<RunForecast> forecast;
-  if (!options.is_brief) forecast = forecast_run(loaded.test, facts, k_trial, options.threads);
+  if (!options.is_brief) forecast = forecast_run(loaded.test, facts, k_forecast_trial, options.threads);
   if (options.is_json) {
     JsonObject answer = facts_as_json(facts);
     if (forecast) {

@@ -23,7 +23,6 @@ namespace fs = std::filesystem;
 
 constexpr int k_spheres = 20000, k_clumps = 5200;
 constexpr double k_friction = 0.5;
-constexpr double k_cell_volume = 1.44;  // as in make_dense_assembly
 
 Scene materials() {
   Scene s = verify::model_scene();
@@ -70,7 +69,8 @@ void make_spheres(const fs::path& folder) {
   for (int k = 0; k < k_spheres; ++k) {
     RandomSequence random(1, RandomStream::test, static_cast<std::uint64_t>(k));
     const double r = random.uniform(1.9e-3, 2.1e-3), play = 0.5 * k_cell - r;
-    const Vec3 cell{0.5 + k % k_across, 0.5 + k / k_across % k_across, 0.5 + k / (k_across * k_across)};  // NOLINT
+    const int layer = k / (k_across * k_across), row = k / k_across % k_across, column = k % k_across;
+    const Vec3 cell{column + 0.5, row + 0.5, layer + 0.5};
     verify::add_sphere(
         scene,
         cell * k_cell + Vec3{random.uniform(-play, play), random.uniform(-play, play), random.uniform(-play, play)}, r);
@@ -97,7 +97,7 @@ ClumpTemplate three_balls() {
 
 Scene assembly_scene(const GrainList& grains, Vec3& size) {
   const double n = static_cast<double>(grains.gravel.size()) + grains.rubber_count;
-  const double across = std::floor(std::cbrt(n)) * std::cbrt(k_cell_volume * grains.solid_volume() / n);
+  const double across = std::floor(std::cbrt(n)) * std::cbrt(k_dense_cell_volume * grains.solid_volume() / n);
   DenseAssembly assembly = make_dense_assembly(grains, materials(), across, across, 1);
   size = {across, across, assembly.height};
   assembly.scene.wall_list = verify::closed_box(size, k_friction);

@@ -112,19 +112,29 @@ TEST(BondForms, IncrementalBondsGiveTheSameCurve) {
   EXPECT_NEAR(stress[1] / stress[0], 1.0, 0.10);
 }
 
+/// Fill of a box whose sides are `scale` times those of small_case, 40 % rubber.
+Fill fill_of_seed(double scale, std::uint64_t seed) {
+  DirectShearCase test = small_case(0.4);
+  for (double* side : {&test.box.length, &test.box.width, &test.box.height, &test.box.upper_height}) *side *= scale;
+  const GrainList grains = draw_grains(test.specimen, test.box, test.rubber.density, test.rubber_solid_density, seed);
+  FillSettings settings;
+  settings.void_ratio = 0.78;  // walls on all sides of so small a box cost room
+  settings.seed = seed;
+  Fill fill = make_fill(grains, test.box, materials_of(test), settings, {});
+  EXPECT_EQ(fill.caught, 0) << "seed " << seed;
+  EXPECT_LE(fill.largest_overlap, settings.overlap_goal) << "seed " << seed;
+  EXPECT_EQ(fill.rubber.size(), static_cast<std::size_t>(grains.rubber_count));
+  return fill;
+}
+
 TEST(FillTest, NoGrainIsCaughtForAnySeed) {
-  const DirectShearCase test = small_case(0.4);
+  // Walls turn grains: 0.73 +- 0.013 in this box, 0.68 +- 0.011 in one a third wider, 0.60 at random, 1 when all are square.
+  double mean = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const GrainList grains = draw_grains(test.specimen, test.box, test.rubber.density, test.rubber_solid_density, seed);
-    FillSettings settings;
-    settings.void_ratio = 0.78;  // walls on all sides of so small a box cost room
-    settings.seed = seed;
-    const Fill fill = make_fill(grains, test.box, materials_of(test), settings, {});
-    EXPECT_EQ(fill.caught, 0) << "seed " << seed;
-    EXPECT_LE(fill.largest_overlap, settings.overlap_goal) << "seed " << seed;
-    EXPECT_EQ(fill.rubber.size(), static_cast<std::size_t>(grains.rubber_count));
-    EXPECT_LT(fill.alignment, 0.80) << "seed " << seed;  // 0.6 at random, 1 when square to the box; few grains here
+    mean += fill_of_seed(1.0, seed).alignment / 4.0;
+    EXPECT_LT(fill_of_seed(4.0 / 3.0, seed).alignment, 0.72) << "seed " << seed;
   }
+  EXPECT_LT(mean, 0.75);
 }
 
 TEST(FillTest, OtherSeedsGiveOtherPlacesTheSameSeedTheSame) {

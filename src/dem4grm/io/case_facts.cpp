@@ -10,6 +10,7 @@
 #include "dem4grm/grains/rubber_size.hpp"
 #include "dem4grm/io/output_folder.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/lab/grain_compression.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/specimen/void_ratio_defaults.hpp"
 
@@ -83,16 +84,7 @@ CaseFacts facts_of(const DirectShearCase& test) {
 }
 
 CaseFacts facts_of(const GrainCompressionCase& test) {
-  Scene scene;
-  scene.gravel = DirectShearCase{}.gravel;  // not used, but a scene has it
-  scene.rubber = test.rubber;
-  scene.walls = test.walls;
-  scene.bond = test.bond;
-  scene.contact = test.contact;
-  scene.integration = test.integration;
-  scene.rubber_ball_radius = test.ball_radius;
-  scene.grains.push_back({});
-  const TimeStepLimit limit = choose_time_step(Simulation(scene), 0.0);
+  const TimeStepLimit limit = choose_time_step(Simulation(lone_grain(test)), 0.0);
   CaseFacts facts;
   facts.test = "grain_compression";
   facts.balls = k_grain_balls;

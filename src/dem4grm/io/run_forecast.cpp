@@ -12,6 +12,7 @@
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/lab/dense_assembly.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/lab/grain_compression.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 
 namespace dem {
@@ -59,11 +60,6 @@ void try_threads(Simulation& s, double trial, int most_threads, RunForecast& out
   if (with_most < out.step_time || most_threads > 0) out.step_time = with_most, out.threads = most;
 }
 
-int states_of(const DirectShearCase& test) {
-  const int regular = static_cast<int>(std::ceil(test.shear.displacement / test.recording.frame_interval - 1e-9)) + 1;
-  return regular + static_cast<int>(test.recording.extra_frames.size());
-}
-
 RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double trial, int most_threads) {
   const SpecimenOrder order = specimen_order(test);
   const GrainList grains =
@@ -73,6 +69,7 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   Simulation s(assembly.scene);
   s.set_time_step(k_frozen_time_step);
   RunForecast out;
+  out.trial = trial;
   try_threads(s, trial, most_threads, out);
   const double rubber_share = static_cast<double>(s.balls.n_rubber_balls()) / s.balls.n_balls();
   out.step_time *= k_step_of_gravel + (k_step_of_rubber - k_step_of_gravel) * rubber_share;
@@ -92,26 +89,19 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   const auto contacts = static_cast<double>(balance(s).active_contacts);
   const double state = k_bytes_per_ball * facts.balls + k_bytes_per_bond * facts.bonds +
                        k_bytes_per_clump * facts.clumps + k_bytes_per_contact * contacts;
-  out.results_size = state * (states_of(test) + 1) + k_bytes_per_row * facts.rows;  // one more: specimen.h5
+  out.results_size = state * static_cast<double>(state_displacements(test).size() + 1) +
+                     k_bytes_per_row * facts.rows;  // one more: specimen.h5
   out.checkpoint_size = k_checkpoint_bytes_per_ball * facts.balls;
   return out;
 }
 
 RunForecast forecast(const GrainCompressionCase& test, const CaseFacts& facts, double trial, int /*most_threads*/) {
-  Scene scene;
-  scene.gravel = DirectShearCase{}.gravel;  // not used, but a scene has it
-  scene.rubber = test.rubber;
-  scene.walls = test.walls;
-  scene.bond = test.bond;
-  scene.contact = test.contact;
-  scene.integration = test.integration;
-  scene.rubber_ball_radius = test.ball_radius;
-  scene.grains.push_back({});
-  Simulation s(scene);
+  Simulation s(lone_grain(test));
   s.set_time_step(k_frozen_time_step);
   RunForecast out;
   out.threads = 1;
-  out.step_time = time_of_step(s, 0.1 * trial, 1);
+  out.trial = 0.1 * trial;  // it takes microseconds, always the same
+  out.step_time = time_of_step(s, out.trial, 1);
   out.steps = facts.steps;
   out.test_time = static_cast<double>(out.steps) * out.step_time;
   return out;

@@ -10,7 +10,11 @@
 
 namespace dem {
 
+/// How long the trial takes unless told otherwise, s.
+inline constexpr double k_forecast_trial = 2.0;
+
 struct RunForecast {
+  double trial = 0.0;             ///< s, how long it was tried
   int threads = 0;                ///< of the trial: as asked for, or what is faster here
   double step_time = 0.0;         ///< s, of a step of the loaded specimen
   std::int64_t steps = 0;         ///< all stages, the fill in steps as dear as those of a loaded specimen
@@ -24,7 +28,8 @@ struct RunForecast {
 
 /// Steps a stand-in for the specimen (lab/dense_assembly.hpp) for about `trial` seconds, half of them on one thread and
 /// half on `most_threads`, which 0 leaves to the machine. Throws InputError for grains that cannot be drawn.
-RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, double trial = 2.0, int most_threads = 0);
+RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, double trial = k_forecast_trial,
+                         int most_threads = 0);
 
 /// The forecast with units in its names.
 JsonObject forecast_as_json(const RunForecast& forecast);

@@ -13,9 +13,6 @@
 namespace dem {
 namespace {
 
-/// Volume of a lattice cell over the mean solid volume of a grain. With it, 5769 rubber grains have 90,000 contacts, as
-/// many as in a specimen under 100 kPa.
-constexpr double k_cell_volume = 1.44;
 constexpr double k_jitter = 0.2;  // of the cell
 
 /// Places [n] in the order of a curve: neighbours are side by side, as in a specimen.
@@ -42,7 +39,7 @@ DenseAssembly make_dense_assembly(const GrainList& grains, const Scene& material
                                   std::uint64_t seed) {
   const std::size_t n = grains.gravel.size() + static_cast<std::size_t>(grains.rubber_count);
   require(n > 0, "a dense assembly needs grains");
-  const double cell = std::cbrt(k_cell_volume * grains.solid_volume() / static_cast<double>(n));
+  const double cell = std::cbrt(k_dense_cell_volume * grains.solid_volume() / static_cast<double>(n));
   const std::vector<Vec3> places = lattice(n, cell, length, width, seed);
   DenseAssembly out;
   out.scene = materials;

@@ -37,6 +37,18 @@ SpecimenOrder specimen_order(const DirectShearCase& test) {
           test.seed};
 }
 
+std::vector<double> state_displacements(const DirectShearCase& test) {
+  std::vector<double> at = test.recording.extra_frames;
+  const double every = test.recording.frame_interval, end = test.shear.displacement;
+  for (int k = 0; k * every < end; ++k) at.push_back(k * every);
+  at.push_back(end);
+  std::sort(at.begin(), at.end());
+  const double near = 0.5 * test.recording.interval;
+  at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a < near; }), at.end());
+  std::erase_if(at, [&](double d) { return d > end + near; });
+  return at;
+}
+
 namespace {
 
 constexpr int k_watch_interval = 500;  // steps between two looks of the watchdog
@@ -54,11 +66,14 @@ struct IntervalSums {
 class ShearStage {
  public:
   ShearStage(const DirectShearCase& test, Specimen& specimen, LabObserver& observer)
-      : test_(test), specimen_(specimen), s_(*specimen.simulation), observer_(observer) {
+      : test_(test),
+        specimen_(specimen),
+        s_(*specimen.simulation),
+        observer_(observer),
+        frames_(state_displacements(test)) {
     s_.servo.speed_cap = std::max(test.servo.shear_speed_cap, test.shear.velocity);
     start_height_ = plate_height();
     start_energy_ = s_.energy();
-    collect_frames();
   }
 
   /// From the beginning when `from` is null, else from the state in it.
@@ -90,19 +105,6 @@ class ShearStage {
   [[nodiscard]] double plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
   [[nodiscard]] double next_row_at() const {
     return std::min(static_cast<double>(rows_.size() + 1) * test_.recording.interval, test_.shear.displacement);
-  }
-
-  /// Displacements of the full states: the start, the extra ones, every frame_interval, the end.
-  void collect_frames() {
-    frames_ = test_.recording.extra_frames;
-    const double every = test_.recording.frame_interval, end = test_.shear.displacement;
-    for (int k = 0; k * every < end; ++k) frames_.push_back(k * every);
-    frames_.push_back(end);
-    std::sort(frames_.begin(), frames_.end());
-    const double near = 0.5 * test_.recording.interval;
-    frames_.erase(std::unique(frames_.begin(), frames_.end(), [&](double a, double b) { return b - a < near; }),
-                  frames_.end());
-    std::erase_if(frames_, [&](double d) { return d > end + near; });
   }
 
   void advance() {
@@ -224,9 +226,9 @@ class ShearStage {
   Specimen& specimen_;
   Simulation& s_;
   LabObserver& observer_;
+  std::vector<double> frames_;
   double displacement_ = 0.0, start_height_ = 0.0;
   EnergyReport start_energy_;
-  std::vector<double> frames_;
   std::size_t next_frame_ = 0;
   std::vector<FrameInfo> written_frames_;
   std::int64_t shear_steps_ = 0;

@@ -34,6 +34,9 @@ struct DirectShearResult {
 /// offender; IoError when the state to go on from does not fit the case.
 DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer, StateArchive* from = nullptr);
 
+/// Displacements at which full states are recorded, m, ascending: the start, the extra ones, every frame_interval, the end.
+std::vector<double> state_displacements(const DirectShearCase& test);
+
 /// The scene of a case without grains and walls.
 Scene materials_of(const DirectShearCase& test);
 

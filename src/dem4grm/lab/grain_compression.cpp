@@ -11,20 +11,25 @@
 
 namespace dem {
 
-namespace {
-
-constexpr double k_ramp_strain = 0.002;  // over which the plates reach their velocity
-
-Scene scene_of(const GrainCompressionCase& test, double height) {
+Scene lone_grain(const GrainCompressionCase& test) {
   Scene scene;
-  scene.gravel = {2710.0, 0.72, 90e6, 0.3};
+  scene.gravel = DirectShearCase{}.gravel;  // not used, but a scene has it
   scene.rubber = test.rubber;
   scene.walls = test.walls;
   scene.bond = test.bond;
   scene.contact = test.contact;
   scene.integration = test.integration;
   scene.rubber_ball_radius = test.ball_radius;
-  scene.grains.push_back({{0.0, 0.0, 0.0}, {}});
+  scene.grains.push_back({});
+  return scene;
+}
+
+namespace {
+
+constexpr double k_ramp_strain = 0.002;  // over which the plates reach their velocity
+
+Scene scene_of(const GrainCompressionCase& test, double height) {
+  Scene scene = lone_grain(test);
   const double half = 2.0 * height;
   scene.wall_list.push_back(
       make_wall("lower plate", {-half, -half, -0.5 * height}, {2 * half, 0, 0}, {0, 2 * half, 0}));

@@ -24,6 +24,9 @@ struct GrainCompressionResult {
   std::string state_hash;
 };
 
+/// The grain of a case at the origin, square to the axes, without plates.
+Scene lone_grain(const GrainCompressionCase& test);
+
 /// Both plates approach at plate_velocity until the strain is reached. Throws PhysicsError when the grain breaks up.
 GrainCompressionResult run_grain_compression(const GrainCompressionCase& test, LabObserver& observer);
 

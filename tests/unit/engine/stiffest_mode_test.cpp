@@ -10,31 +10,15 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/stiffest_mode.hpp"
 #include "dem4grm/engine/time_step.hpp"
-#include "dem4grm/lab/dense_assembly.hpp"
-#include "dem4grm/lab/direct_shear.hpp"
-#include "dem4grm/specimen/draw_grains.hpp"
-#include "support/scene_builder.hpp"
+#include "support/mixture_case.hpp"
+#include "support/pressed_sphere.hpp"
 
 namespace {
 
 using namespace dem;
 using namespace dem::test;
 
-constexpr double k_radius = 2.5e-3;
-
-/// A gravel sphere between two rough plates, 20 um overlap on each: k_s 9.459451e4 N/m apiece.
-Simulation pressed_sphere() {
-  Scene scene = model_scene();
-  const double d = 20e-6;
-  scene.wall_list = {make_wall("floor", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}),
-                     make_wall("lid", {-1, -1, 2 * (k_radius - d)}, {0, 2, 0}, {2, 0, 0})};
-  for (Wall& w : scene.wall_list) w.friction = 0.7;
-  add_sphere(scene, {0, 0, k_radius - d}, k_radius);
-  Simulation s(scene);
-  s.set_time_step(1e-7);
-  s.step();
-  return s;
-}
+constexpr double k_radius = k_pressed_radius;
 
 /// The turning mode, 2 k_s l^2 / (0.4 m r^2): walls do not move, so nothing is counted twice.
 double limit_of_pressed_sphere() {
@@ -66,17 +50,9 @@ TEST(StiffestMode, NothingJoinedNothingLimits) {
   EXPECT_EQ(stable_time_step(s, 1e-6), std::numeric_limits<double>::infinity());
 }
 
-/// A mixture of some hundred grains, pressed together: more balls than the blocks of the parallel loops hold.
+/// More balls than the blocks of the parallel loops hold.
 Simulation pressed_mixture() {
-  DirectShearCase test;
-  test.specimen.rubber_content = 0.4;
-  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {6.0e-3, 1.0}};
-  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
-  test.box.length = test.box.width = 0.040;
-  test.box.height = 0.030;
-  const SpecimenOrder o = specimen_order(test);
-  const GrainList grains = draw_grains(o.specimen, o.box, o.materials.rubber.density, o.solid_density, o.seed);
-  Simulation s(make_dense_assembly(grains, o.materials, o.box.length, o.box.width, o.seed).scene);
+  Simulation s(mixture_stand(0.4).assembly.scene);
   s.set_time_step(k_frozen_time_step);
   s.step();
   return s;

@@ -13,6 +13,7 @@
 #include "dem4grm/core/random.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "support/grain_statics.hpp"
+#include "support/pressed_sphere.hpp"
 
 namespace {
 
@@ -178,21 +179,6 @@ TEST(GrainTimeStep, EngineIsStableBelowTheLimitAndNotAboveIt) {
       EXPECT_FALSE(growth(form, damping, 1.02) < 1e6) << "damping " << damping;
     }
   }
-}
-
-/// A gravel sphere between two rough plates, 20 um overlap on each: k_n 1.148593e5 and k_s 9.459451e4 N/m apiece.
-Simulation pressed_sphere(const ContactSettings& contact = {}) {
-  Scene scene = model_scene();
-  scene.contact = contact;
-  const double r = 2.5e-3, d = 20e-6;
-  scene.wall_list = {make_wall("floor", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}),
-                     make_wall("lid", {-1, -1, 2 * (r - d)}, {0, 2, 0}, {2, 0, 0})};
-  for (Wall& w : scene.wall_list) w.friction = 0.7;
-  add_sphere(scene, {0, 0, r - d}, r);
-  Simulation s(scene);
-  s.set_time_step(1e-7);
-  s.step();
-  return s;
 }
 
 TEST(ClumpTimeStep, OfASpherePressedBetweenPlates) {

@@ -4,26 +4,18 @@
 #include <gtest/gtest.h>
 
 #include "dem4grm/io/run_forecast.hpp"
+#include "support/mixture_case.hpp"
 
 namespace {
 
 using namespace dem;
 
-DirectShearCase small_case(double rubber_content) {
-  DirectShearCase test;
-  test.specimen.rubber_content = rubber_content;
-  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {6.0e-3, 1.0}};
-  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
-  test.box.length = test.box.width = 0.040;
-  test.box.height = 0.030;
-  test.shear.normal_stress = 100e3;
-  return test;
-}
+using dem::test::mixture_case;
 
 RunForecast forecast_of(const DirectShearCase& test) { return forecast_run(test, derive_facts(test), 0.05, 1); }
 
 TEST(RunForecast, TwiceTheDisplacementTakesTwiceTheShear) {
-  DirectShearCase test = small_case(0.3);
+  DirectShearCase test = mixture_case(0.3);
   const RunForecast once = forecast_of(test);
   const CaseFacts facts = derive_facts(test);
   test.shear.displacement *= 2.0;
@@ -36,14 +28,14 @@ TEST(RunForecast, TwiceTheDisplacementTakesTwiceTheShear) {
 }
 
 TEST(RunForecast, AQuickPlatePreparesInFewerSteps) {
-  DirectShearCase test = small_case(0.0);
+  DirectShearCase test = mixture_case(0.0);
   const RunForecast slow = forecast_of(test);
   test.specimen.approach_speed *= 10.0;
   EXPECT_LT(forecast_of(test).steps, slow.steps);
 }
 
 TEST(RunForecast, EveryStateTakesItsRoom) {
-  DirectShearCase test = small_case(0.3);
+  DirectShearCase test = mixture_case(0.3);
   test.recording.extra_frames = {};
   test.recording.frame_interval = test.shear.displacement;
   const double two_states = forecast_of(test).results_size;

@@ -3,35 +3,16 @@
 #include <gtest/gtest.h>
 
 #include "dem4grm/engine/observe.hpp"
-#include "dem4grm/lab/dense_assembly.hpp"
-#include "dem4grm/lab/direct_shear.hpp"
-#include "dem4grm/specimen/draw_grains.hpp"
+#include "support/mixture_case.hpp"
 
 namespace {
 
 using namespace dem;
 
-struct Stand {
-  GrainList grains;
-  DenseAssembly assembly;
-};
-
-Stand stand(double rubber_content) {
-  DirectShearCase test;
-  test.specimen.rubber_content = rubber_content;
-  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {6.0e-3, 1.0}};
-  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
-  test.box.length = test.box.width = 0.040;
-  test.box.height = 0.030;
-  const SpecimenOrder o = specimen_order(test);
-  Stand out;
-  out.grains = draw_grains(o.specimen, o.box, o.materials.rubber.density, o.solid_density, o.seed);
-  out.assembly = make_dense_assembly(out.grains, o.materials, o.box.length, o.box.width, o.seed);
-  return out;
-}
+using dem::test::mixture_stand, dem::test::MixtureStand;
 
 TEST(DenseAssembly, HoldsAllGrainsInTheBox) {
-  const Stand s = stand(0.4);
+  const MixtureStand s = mixture_stand(0.4);
   EXPECT_EQ(s.assembly.scene.clumps.size(), s.grains.gravel.size());
   EXPECT_EQ(s.assembly.scene.grains.size(), static_cast<std::size_t>(s.grains.rubber_count));
   for (const Pose& p : s.assembly.scene.grains) {
@@ -44,7 +25,7 @@ TEST(DenseAssembly, HoldsAllGrainsInTheBox) {
 }
 
 TEST(DenseAssembly, RubberHasAboutAsManyContactsAsUnderLoad) {
-  const Stand s = stand(1.0);
+  const MixtureStand s = mixture_stand(1.0);
   Simulation simulation(s.assembly.scene);
   simulation.set_time_step(k_frozen_time_step);
   simulation.step();
@@ -55,7 +36,7 @@ TEST(DenseAssembly, RubberHasAboutAsManyContactsAsUnderLoad) {
 }
 
 TEST(DenseAssembly, StandsStillWhileItIsStepped) {
-  const Stand s = stand(0.4);
+  const MixtureStand s = mixture_stand(0.4);
   Simulation simulation(s.assembly.scene);
   simulation.set_time_step(k_frozen_time_step);
   const Vec3 rubber = body_position(simulation, 0), clump = simulation.clumps.clumps.front().position;
