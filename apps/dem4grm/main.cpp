@@ -59,6 +59,7 @@ int run_program(int argc, char** argv) {
       "  dem4grm run my.toml -o runs/my");
   dem::add_new(app);
   dem::add_check(app);
+  dem::add_specimen(app);
   dem::add_run(app);
   dem::add_info(app);
   dem::add_verify(app);

@@ -3,12 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <variant>
+
 namespace dem {
 namespace {
 
 /// A line with its name in the first 26 columns.
 std::string line(const std::string& name, const std::string& value) {
   return fmt::format("  {:<24} {}\n", name, value);
+}
+
+/// How the density was found.
+std::string density_lines(const JsonObject& s) {
+  const auto n = [&](const char* name) { return number_in(s, name); };
+  const JsonValue* branches = find_field(s, "branches");
+  const auto* list = branches == nullptr ? nullptr : std::get_if<JsonList>(&branches->data);
+  if (list == nullptr || list->empty()) {
+    return line("preparation friction", fmt::format("{:g}, as given", n("preparation_friction")));
+  }
+  return line("relative density", fmt::format("{:.1f} % with friction {:g}, found in {} branches",
+                                              100.0 * n("relative_density"), n("preparation_friction"), list->size())) +
+         line("e_min, e_max", fmt::format("{:.4f}, {:.4f}", n("void_ratio_min"), n("void_ratio_max")));
 }
 
 std::string shear_lines(const JsonObject& s) {
@@ -24,6 +39,7 @@ std::string shear_lines(const JsonObject& s) {
                                      n("void_ratio_prepared"), n("void_ratio_before_shear"), n("void_ratio_at_end")));
   text += line("normal stress", fmt::format("{:.3f} kPa mean, largest error {:.2f} %", n("normal_stress_mean_kPa"),
                                             100.0 * n("normal_stress_max_error")));
+  text += density_lines(s);
   const double inertial = n("inertial_number_max");
   text += line("inertial number",
                fmt::format("{:.2e} at most{}", inertial, inertial > 1e-3 ? ": too fast to be quasi-static" : ""));
@@ -65,6 +81,27 @@ std::string run_report(const JsonObject& summary, const std::filesystem::path& f
   text += summary_lines(summary);
   text += line("written to", folder.string());
   text += line("next", fmt::format("dem4grm info {}", folder.string()));
+  return text;
+}
+
+std::string specimen_report(const JsonObject& summary, const std::filesystem::path& folder,
+                            const std::string& case_path, bool was_complete) {
+  const auto n = [&](const char* name) { return number_in(summary, name); };
+  std::string text =
+      fmt::format("{} {}\n", folder.string(),
+                  was_complete ? "already holds the specimen; nothing was computed" : "holds the specimen");
+  text += line("grains", fmt::format("{:.0f} clumps, {:.0f} rubber grains, rubber content {:.4f}", n("clumps"),
+                                     n("rubber_grains"), n("rubber_content")));
+  text += density_lines(summary);
+  text += line("void ratio",
+               fmt::format("{:.4f} generated, {:.4f} prepared, {:.4f} before shear", n("void_ratio_generated"),
+                           n("void_ratio_prepared"), n("void_ratio_before_shear")));
+  text += line("height",
+               fmt::format("{:.2f} mm under {:g} kPa", n("height_before_shear_mm"), n("normal_stress_target_kPa")));
+  text += line("state hash", text_in(summary, "state_hash"));
+  text += line("wall time",
+               fmt::format("{:.1f} s, {:.0f} steps, {:.0f} thread(s)", n("wall_time_s"), n("steps"), n("threads")));
+  text += line("next", fmt::format("dem4grm run {} -o {}", case_path, folder.string()));
   return text;
 }
 

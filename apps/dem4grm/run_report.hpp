@@ -15,4 +15,8 @@ std::string summary_lines(const JsonObject& summary);
 /// The same with the folder, the time it took and the next command.
 std::string run_report(const JsonObject& summary, const std::filesystem::path& folder, bool was_complete);
 
+/// What the verb specimen says at its end.
+std::string specimen_report(const JsonObject& summary, const std::filesystem::path& folder,
+                            const std::string& case_path, bool was_complete);
+
 }  // namespace dem

@@ -63,7 +63,8 @@ std::string forecast_text(const RunForecast& f) {
   line("", fmt::format("{} steps of {:.3g} ms, from a trial of {:.2g} s on this machine", f.steps, f.step_time * 1e3,
                        f.trial));
   if (f.results_size > 0.0) {
-    line("disk", fmt::format("about {:.0f} MB, and {:.0f} MB for the checkpoint while it runs", f.results_size / 1e6,
+    line("disk", fmt::format("about {:.0f} MB{}, and {:.0f} MB for the checkpoint while it runs", f.results_size / 1e6,
+                             f.store_size > 0.0 ? fmt::format(", {:.0f} MB of kept branches", f.store_size / 1e6) : "",
                              f.checkpoint_size / 1e6));
   }
   return text;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// dem4grm run: a case into its output folder.
+// dem4grm run and dem4grm specimen: a case into its output folder, to its end or until shear begins.
 #include <omp.h>
 
 #include <memory>
@@ -20,10 +20,11 @@ namespace {
 constexpr int k_most_threads = 1024;
 
 struct RunOptions {
-  std::string case_path, folder;
+  std::string case_path, folder, store, specimen;
   int threads = 0;  ///< 0: all processors that this process may use
   std::vector<std::string> settings;
   bool is_json = false, is_quiet = false, is_verbose = false;
+  bool is_specimen_only = false;
 };
 
 Loudness loudness_of(const RunOptions& options) {
@@ -43,10 +44,18 @@ void run(const RunOptions& options) {
   const int threads = is_free ? std::min(omp_get_num_procs(), k_most_threads) : options.threads;
   omp_set_num_threads(threads);
   install_stop_signals();
-  ProgressLine line(remaining_time_of(loaded.test), loudness_of(options));
+  ProgressLine line(remaining_time_of(loaded.test, options.is_specimen_only), loudness_of(options));
   ThreadTuner tuner(line, threads);
   LabObserver& listener = is_free ? static_cast<LabObserver&>(tuner) : line;
-  const RunOutcome outcome = run_case(loaded, {folder, threads, {&listener, &stop_requested}});
+  RunSettings settings;
+  settings.folder = folder;
+  settings.threads = threads;
+  settings.specimen = options.specimen;
+  settings.links.listener = &listener;
+  settings.links.stop_flag = &stop_requested;
+  settings.links.store = options.store;
+  settings.links.is_specimen_only = options.is_specimen_only;
+  const RunOutcome outcome = run_case(loaded, settings);
   line.close_line();
   if (options.is_json) {
     JsonObject answer = outcome.summary;
@@ -54,8 +63,27 @@ void run(const RunOptions& options) {
     answer.push_back({"was_complete", outcome.was_complete});
     print_result(json_text(answer));
   } else if (!options.is_quiet) {
-    print_result(run_report(outcome.summary, folder, outcome.was_complete));
+    const bool has_shear = find_field(outcome.summary, "peak_shear_stress_kPa") != nullptr;
+    print_result(options.is_specimen_only && !has_shear
+                     ? specimen_report(outcome.summary, folder, options.case_path, outcome.was_complete)
+                     : run_report(outcome.summary, folder, outcome.was_complete));
   }
+}
+
+/// What both verbs can be told.
+void add_common(CLI::App& verb, RunOptions& options) {
+  verb.add_option("CASE", options.case_path, "case file")->required();
+  verb.add_option("-o,--output", options.folder, "output folder, default runs/<name of the case>")->type_name("DIR");
+  verb.add_option("-j,--threads", options.threads,
+                  "threads; by default as many processors as pay off,\nany number gives the same results")
+      ->type_name("N")
+      ->check(CLI::Range(1, k_most_threads));
+  add_set_option(verb, options.settings);
+  verb.add_option("--store", options.store,
+                  "folder in which preparations find each other's states;\ndefault: preparation/ in the output folder")
+      ->type_name("DIR");
+  verb.add_flag("--json", options.is_json, "the summary as JSON on stdout, nothing else there");
+  verb.add_flag("-q,--quiet", options.is_quiet, "no progress, no report; errors only");
 }
 
 }  // namespace
@@ -63,19 +91,25 @@ void run(const RunOptions& options) {
 void add_run(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("run", "runs a case; a finished run is only reported");
   const auto options = std::make_shared<RunOptions>();
-  verb->add_option("CASE", options->case_path, "case file")->required();
-  verb->add_option("-o,--output", options->folder, "output folder, default runs/<name of the case>")->type_name("DIR");
-  verb->add_option("-j,--threads", options->threads,
-                   "threads; by default as many processors as pay off,\nany number gives the same results")
-      ->type_name("N")
-      ->check(CLI::Range(1, k_most_threads));
-  add_set_option(*verb, options->settings);
-  verb->add_flag("--json", options->is_json, "the summary as JSON on stdout, nothing else there");
-  verb->add_flag("-q,--quiet", options->is_quiet, "no progress, no report; errors only");
+  add_common(*verb, *options);
+  verb->add_option("--specimen", options->specimen, "finished specimen to start from, or its folder")
+      ->type_name("FILE");
   verb->add_flag("-v,--verbose", options->is_verbose, "also name every stored state");
   verb->footer(
       "Example:\n"
       "  dem4grm run cases/quick.toml -j 2 --set shear.displacement=\"4 mm\"");
+  verb->callback([options] { run(*options); });
+}
+
+void add_specimen(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("specimen", "prepares the specimen of a case and stops before shear");
+  const auto options = std::make_shared<RunOptions>();
+  options->is_specimen_only = true;
+  add_common(*verb, *options);
+  verb->footer(
+      "Example:\n"
+      "  dem4grm specimen my.toml -o runs/my --store runs/store\n"
+      "  dem4grm run my.toml -o runs/my");
   verb->callback([options] { run(*options); });
 }
 

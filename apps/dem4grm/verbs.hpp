@@ -12,6 +12,7 @@ namespace dem {
 
 void add_new(CLI::App& app);
 void add_check(CLI::App& app);
+void add_specimen(CLI::App& app);
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
 void add_verify(CLI::App& app);

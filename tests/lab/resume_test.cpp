@@ -20,6 +20,7 @@ namespace {
 DirectShearCase tiny_case() {
   DirectShearCase test;
   test.specimen.rubber_content = 0.3;
+  test.specimen.preparation_friction = 0.3;
   test.specimen.generation_void_ratio = 0.85;
   test.specimen.gravel_grading = {{4.0e-3, 0.0}, {5.0e-3, 1.0}};
   test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};

@@ -234,6 +234,8 @@ DirectShearCase random_case() {
       lower(***slot);
     }
   }
+  auto& either = *rc::gen::arbitrary<bool>() ? test.specimen.relative_density : test.specimen.preparation_friction;
+  either.reset();  // a case gives one of them
   const double factor = 1.0 - 0.05 * *rc::gen::inRange(0, 1 << 30) / (1 << 30);
   for (GradingPoint& point : test.specimen.gravel_grading) {
     point.size *= factor;

@@ -11,6 +11,7 @@ namespace dem::test {
 inline DirectShearCase mixture_case(double rubber_content) {
   DirectShearCase test;
   test.specimen.rubber_content = rubber_content;
+  test.specimen.preparation_friction = 0.3;
   test.specimen.gravel_grading = {{4.0e-3, 0.0}, {6.0e-3, 1.0}};
   test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
   test.box.length = test.box.width = 0.040;

@@ -50,6 +50,10 @@ TestCase read_case(const TomlNode& root, const std::filesystem::path& folder, Ca
   }
   DirectShearCase test;
   read_test<GrainCompressionCase>(test, root, folder, problems);
+  SpecimenSettings& specimen = test.specimen;
+  if (!specimen.preparation_friction && !specimen.relative_density) {
+    specimen.relative_density = k_default_relative_density;
+  }
   return test;
 }
 

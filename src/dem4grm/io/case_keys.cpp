@@ -21,6 +21,8 @@ constexpr std::array k_other_names{
     OtherName{"mu", "friction"},
     OtherName{"friction_coefficient", "friction"},
     OtherName{"vrc", "rubber_content"},
+    OtherName{"dr", "relative_density"},
+    OtherName{"d_r", "relative_density"},
     OtherName{"sigma_n", "normal_stress"},
     OtherName{"sigma", "normal_stress"},
     OtherName{"g", "shear_modulus"},
@@ -75,7 +77,7 @@ class KeyFinder {
       } else if (member.value.kind == TomlKind::table) {
         unknown_section(member, path);
       } else {
-        unknown_key(member, section, path);
+        unknown_key(member, section);
       }
     }
   }
@@ -112,14 +114,7 @@ class KeyFinder {
     problems_.error(member.key_place, fmt::format("unknown section [{}]{}", printable(path), hint));
   }
 
-  void unknown_key(const TomlMember& member, std::string_view section, const std::string& path) {
-    if (path == "specimen.relative_density") {
-      problems_.error(member.key_place,
-                      "specimen.relative_density: the search for a relative density does not exist yet; give "
-                      "preparation_friction instead",
-                      key_note(*schema_.find("specimen.preparation_friction")));
-      return;
-    }
+  void unknown_key(const TomlMember& member, std::string_view section) {
     const std::string where = section.empty() ? " before the first section" : fmt::format(" in [{}]", section);
     problems_.error(member.key_place, fmt::format("unknown key \"{}\"{}{}", printable(member.key), where,
                                                   suggestion(member.key, section)));

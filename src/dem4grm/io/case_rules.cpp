@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
 #include <fmt/format.h>
@@ -67,23 +68,45 @@ GrainSizes grain_sizes(const SpecimenSettings& specimen, const GivenKeys& given)
   return sizes;
 }
 
+void check_preparation(const DirectShearCase& test, Rules& rules) {
+  const auto& [given, problems] = rules;
+  const SpecimenSettings& specimen = test.specimen;
+  if (given.has("specimen.relative_density") && given.has("specimen.preparation_friction")) {
+    problems.error(given.place_of({"specimen.preparation_friction"}),
+                   "specimen.preparation_friction and specimen.relative_density exclude each other",
+                   "the friction sets the density; give it, or the density to be searched for");
+  }
+  if (given.are_good({"specimen.smallest_friction", "specimen.largest_friction"}) &&
+      !(specimen.smallest_friction < specimen.largest_friction)) {
+    problems.error(given.place_of({"specimen.smallest_friction", "specimen.largest_friction"}),
+                   fmt::format("specimen.smallest_friction = {} must be below specimen.largest_friction = {}",
+                               format_decimal(specimen.smallest_friction), format_decimal(specimen.largest_friction)));
+  }
+  if (given.are_good({"specimen.load_steps"}) &&
+      std::adjacent_find(specimen.load_steps.begin(), specimen.load_steps.end(), std::greater_equal<>()) !=
+          specimen.load_steps.end()) {
+    problems.error(given.place_of({"specimen.load_steps"}), "specimen.load_steps must rise from entry to entry");
+  }
+}
+
 /// Each side of the box against the largest grain. ASTM D3080 asks for a width of 10 and a height of 6 grains; the
-/// published box has 6.2 in height. Below 5 the walls decide the result.
+/// published box has 6.2 in height. Below 5 the walls decide the result, below 2 there is nothing to shear.
 void check_box_against_grains(const DirectShearCase& test, Rules& rules) {
   const GrainSizes grains = grain_sizes(test.specimen, rules.given);
   if (grains.largest == 0.0) return;
   const auto check_side = [&](std::string_view key, double side, double usual) {
     if (!rules.given.are_good({key})) return;
     const Place place = rules.given.place_of({key, "specimen.gravel_grading", "specimen.rubber_grading"});
-    const double least = 5.0 * grains.largest;
+    const double least = 2.0 * grains.largest;
     if (side < least * (1.0 - 1e-9)) {
-      rules.problems.error(place, fmt::format("{} = {} is less than 5 of the largest grains ({}): at least {}", key,
+      rules.problems.error(place, fmt::format("{} = {} is less than 2 of the largest grains ({}): at least {}", key,
                                               length_text(side), length_text(grains.largest),
                                               format_decimal(std::ceil(least * 1e4 - 1e-6) / 10.0) + " mm"));
     } else if (side < usual * grains.largest * (1.0 - 1e-9)) {
       rules.problems.warning(place, fmt::format("{} = {} is less than {} of the largest grains ({}), the least that "
-                                                "ASTM D3080 asks for",
-                                                key, length_text(side), usual, length_text(grains.largest)));
+                                                "ASTM D3080 asks for{}",
+                                                key, length_text(side), usual, length_text(grains.largest),
+                                                side < 5.0 * grains.largest ? "; the walls decide the result" : ""));
     }
   };
   check_side("box.length", test.box.length, 10.0);
@@ -213,6 +236,7 @@ void check_integration(const IntegrationSettings& integration, Rules& rules) {
 void check_rules(const DirectShearCase& test, const GivenKeys& given, CaseProblems& problems) {
   Rules rules{given, problems};
   check_materials(test.specimen, rules);
+  check_preparation(test, rules);
   check_box_against_grains(test, rules);
   check_box(test, rules);
   check_recording(test, rules);

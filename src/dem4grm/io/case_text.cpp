@@ -98,6 +98,7 @@ DirectShearCase new_direct_shear(const NewCase& wanted) {
   test.specimen.rubber_content = wanted.rubber_content_percent / 100.0;
   test.specimen.gravel_grading = standard_gravel_grading();
   test.specimen.rubber_grading = standard_rubber_grading();
+  test.specimen.relative_density = k_default_relative_density;
   test.shear.normal_stress = *stress.value;
   test.name = fmt::format("vrc{}-{}", format_decimal(wanted.rubber_content_percent),
                           without_blanks(format_quantity(*stress.value, Dimension::stress)));

@@ -8,12 +8,13 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/io/hdf5_handle.hpp"
 #include "dem4grm/io/output_file.hpp"
+#include "dem4grm/io/state_group.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
 namespace {
 
-constexpr std::int64_t k_format = 2;  // raised with every change of what is saved
+constexpr std::int64_t k_format = 3;  // raised with every change of what is saved
 
 /// Errors of the library name the object; the user needs the file.
 template <class Work>
@@ -25,18 +26,6 @@ auto naming_file(const std::filesystem::path& path, const char* hint, const Work
     throw IoError(std::string_view(e.what()).starts_with(shown) ? fmt::format("{}{}", e.what(), hint)
                                                                 : fmt::format("{}: {}{}", shown, e.what(), hint));
   }
-}
-
-StateData read_entry(const hdf5::Handle& group, const std::string& name) {
-  switch (hdf5::dataset_kind(group, name)) {
-    case hdf5::DatasetKind::real:
-      return hdf5::read_dataset(group, name);
-    case hdf5::DatasetKind::whole:
-      return hdf5::read_whole_numbers(group, name);
-    case hdf5::DatasetKind::byte:
-      return hdf5::read_bytes(group, name);
-  }
-  return {};
 }
 
 }  // namespace
@@ -55,10 +44,7 @@ void write_checkpoint(const std::filesystem::path& path, const StateArchive& sta
       hdf5::write_attribute(meta, "wall_time", facts.wall_time);
       const std::array<std::string, 1> resolved{facts.resolved_toml};
       hdf5::write_dataset(meta, {"resolved_toml", "1", "every key of the case with its value"}, resolved);
-      const hdf5::Handle group = hdf5::create_group(file, "state");
-      for (const StateEntry& entry : state.entries()) {
-        std::visit([&](const auto& values) { hdf5::write_dataset(group, {entry.name, "SI", ""}, values); }, entry.data);
-      }
+      write_state(hdf5::create_group(file, "state"), state);
     }
     file.close("the file cannot be closed");
   });
@@ -79,10 +65,7 @@ StoredCheckpoint read_checkpoint(const std::filesystem::path& path) {
     out.facts.wall_time = hdf5::read_number_attribute(meta, "wall_time");
     out.facts.commit = hdf5::read_text_attribute(meta, "commit");
     out.facts.resolved_toml = hdf5::read_text(meta, "resolved_toml");
-    const hdf5::Handle group = hdf5::open_group(file, "state");
-    std::vector<StateEntry> entries;
-    for (const std::string& name : hdf5::names_in(group)) entries.push_back({name, read_entry(group, name)});
-    out.state = StateArchive(std::move(entries));
+    out.state = read_state(hdf5::open_group(file, "state"));
     return out;
   });
 }

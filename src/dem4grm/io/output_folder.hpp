@@ -22,6 +22,8 @@ inline constexpr const char* k_grain = "grain.csv";
 inline constexpr const char* k_summary = "summary.json";
 inline constexpr const char* k_results = "results.h5";
 inline constexpr const char* k_specimen = "specimen.h5";
+inline constexpr const char* k_specimen_summary = "specimen.json";
+inline constexpr const char* k_preparation = "preparation";  ///< folder
 inline constexpr const char* k_checkpoint = "checkpoint.h5";
 }  // namespace file_name
 

@@ -15,6 +15,7 @@ constexpr std::size_t k_least_samples = 3;
 
 void RemainingTime::update(const Progress& now, double wall_time) {
   if (now.time_step > 0.0) time_step_ = now.time_step;
+  steps_to_last_stage_ = now.steps_to_last_stage;
   if (!samples_.empty()) wall_time = std::max(wall_time, samples_.back().wall_time);
   const Sample sample{wall_time, now.fraction, now.steps};
   if (now.stage != stage_) {
@@ -50,7 +51,9 @@ Forecast RemainingTime::forecast() const {
   // The end of this stage alone would say nothing about the test, in which the last stage takes longest.
   const double speed = steps_per_second();
   if (!(time_step_ > 0.0) || !(speed > 0.0)) return {std::nullopt, true};
-  return {rest_of_stage().value_or(0.0) + last_stage_duration_ / time_step_ / speed, true};
+  const double last_stage = last_stage_duration_ / time_step_ / speed;
+  if (steps_to_last_stage_ >= 0.0) return {steps_to_last_stage_ / speed + last_stage, false};
+  return {rest_of_stage().value_or(0.0) + last_stage, true};
 }
 
 }  // namespace dem

@@ -11,7 +11,8 @@
 
 namespace dem {
 
-/// A forecast; the stages that settle until the specimen is at rest cannot be foreseen and count as nothing.
+/// A forecast. Stages that settle until the specimen is at rest count with the steps that the test expects of them, or
+/// with nothing.
 struct Forecast {
   std::optional<double> seconds;  ///< until the end of the test
   bool is_lower_bound = false;    ///< a stage of unknown length is still to come or is running
@@ -42,6 +43,7 @@ class RemainingTime {
   double last_stage_duration_ = 0.0;
   std::string stage_;
   double time_step_ = 0.0;
+  double steps_to_last_stage_ = -1.0;
   Sample first_;                ///< of the present stage
   std::deque<Sample> samples_;  ///< of the present stage, the latest ones
 };

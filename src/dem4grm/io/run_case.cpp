@@ -7,20 +7,36 @@
 #include <optional>
 
 #include "dem4grm/io/checkpoint_file.hpp"
+#include "dem4grm/io/specimen_file.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
 namespace {
 
-RunOutcome outcome_of_complete(const std::filesystem::path& folder) {
-  return {read_json_file(folder / file_name::k_summary), true};
+/// What a folder says that holds all that is wanted of it.
+std::optional<RunOutcome> outcome_of_complete(const RunSettings& settings, FolderContent content) {
+  if (content == FolderContent::complete)
+    return RunOutcome{read_json_file(settings.folder / file_name::k_summary), true};
+  const std::filesystem::path specimen = settings.folder / file_name::k_specimen_summary;
+  const bool is_ready = content == FolderContent::unfinished && std::filesystem::exists(specimen);
+  if (!settings.links.is_specimen_only || !is_ready) return std::nullopt;
+  return RunOutcome{read_json_file(specimen), true};
 }
 
 JsonObject run_test(const TestCase& test, TestWriter& writer, StateArchive* from) {
   if (const auto* shear = std::get_if<DirectShearCase>(&test)) {
-    return writer.finish(run_direct_shear(*shear, writer, from));
+    const DirectShearResult result = run_direct_shear(*shear, writer, from);
+    return writer.wants_shear() ? writer.finish(result) : writer.finish_specimen(result);
   }
   return writer.finish(run_grain_compression(std::get<GrainCompressionCase>(test), writer));
+}
+
+/// The specimen that the user names, when the run begins at its beginning.
+std::optional<StateArchive> chosen_specimen(const LoadedCase& loaded, const RunSettings& settings) {
+  if (settings.specimen.empty()) return std::nullopt;
+  const auto* shear = std::get_if<DirectShearCase>(&loaded.test);
+  if (shear == nullptr) throw Error(ExitCode::usage, "--specimen is for shear tests");
+  return read_specimen(settings.specimen, *shear);
 }
 
 std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
@@ -38,16 +54,20 @@ std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
 
 RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   // A finished folder may be read-only and needs no lock.
-  if (look_into(settings.folder, loaded) == FolderContent::complete) return outcome_of_complete(settings.folder);
+  if (auto outcome = outcome_of_complete(settings, look_into(settings.folder, loaded))) return *outcome;
+  // Before anything is written: a specimen of another case must not leave a folder behind.
+  std::optional<StateArchive> start = chosen_specimen(loaded, settings);
   const OutputFolder folder(settings.folder, loaded);
-  if (folder.found() == FolderContent::complete) return outcome_of_complete(settings.folder);
+  if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
   std::optional<StoredCheckpoint> checkpoint;
   if (folder.has_checkpoint()) checkpoint = read_checkpoint(folder.file(file_name::k_checkpoint));
+  StateArchive* from = checkpoint ? &checkpoint->state : start ? &*start : nullptr;
   TestWriter writer(folder, loaded, settings.threads, settings.links, checkpoint ? checkpoint->facts.wall_time : 0.0);
   if (!folder.lock_note().empty()) writer.note(folder.lock_note());
   if (folder.found() == FolderContent::unfinished) writer.note(note_about(checkpoint));
+  if (start && !checkpoint) writer.note(fmt::format("starts from the specimen of {}", settings.specimen.string()));
   try {
-    return {run_test(loaded.test, writer, checkpoint ? &checkpoint->state : nullptr), false};
+    return {run_test(loaded.test, writer, from), false};
   } catch (const StoppedOnRequest& stop) {
     writer.give_up(RunState::stopped, stop.what());
     throw;

@@ -27,6 +27,8 @@ constexpr double k_step_of_gravel = 0.95, k_step_of_rubber = 1.25;
 constexpr double k_growth_of_time_step = 1.28;
 // Fill in units of a step under load: 6,600 for gravel, 9,000 with VRC 25, 19,000 for rubber alone; and steps to come to
 // rest twice.
+// A search takes e_min, e_max and two trials or three; each rests after its way.
+constexpr double k_usual_branches = 4.5, k_branch_rest = 9000.0;
 constexpr double k_fill_of_gravel = 7000.0, k_fill_of_rubber = 19000.0, k_rest_steps = 18000.0;
 // Compressed bytes in a full state, measured on states of gravel, rubber and a mixture.
 constexpr double k_bytes_per_ball = 46.0, k_bytes_per_bond = 27.0, k_bytes_per_clump = 106.0,
@@ -81,7 +83,12 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   const double layer = grains.solid_volume() / (test.box.length * test.box.width);
   const double travel = layer * std::max(0.0, facts.generation_void_ratio - facts.expected_void_ratio);
   const double fill_steps = k_fill_of_gravel + (k_fill_of_rubber - k_fill_of_gravel) * facts.rubber_content;
-  const double preparation_steps = fill_steps + travel / test.specimen.approach_speed / facts.time_step + k_rest_steps;
+  const double way = travel / test.specimen.approach_speed / facts.time_step;
+  const bool has_search = !test.specimen.preparation_friction;
+  const auto stops = std::count_if(test.specimen.load_steps.begin(), test.specimen.load_steps.end(),
+                                   [&](double stress) { return stress < test.shear.normal_stress; });
+  const double branch = way + k_branch_rest * (1.0 + static_cast<double>(stops));
+  const double preparation_steps = fill_steps + (has_search ? k_usual_branches * branch : way) + k_rest_steps;
   out.steps = std::llround(preparation_steps + shear_steps);
   out.preparation_time = preparation_steps * out.step_time;
   out.test_time = shear_steps * out.step_time;
@@ -92,6 +99,8 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   out.results_size = state * static_cast<double>(state_displacements(test).size() + 1) +
                      k_bytes_per_row * facts.rows;  // one more: specimen.h5
   out.checkpoint_size = k_checkpoint_bytes_per_ball * facts.balls;
+  out.results_size += out.checkpoint_size;  // the complete state in specimen.h5
+  if (has_search) out.store_size = k_usual_branches * (1.0 + static_cast<double>(stops)) * out.checkpoint_size;
   return out;
 }
 
@@ -121,6 +130,7 @@ JsonObject forecast_as_json(const RunForecast& f) {
           {"forecast_test_s", f.test_time},
           {"forecast_time_s", f.time()},
           {"forecast_results_MB", f.results_size / 1e6},
+          {"forecast_store_MB", f.store_size / 1e6},
           {"forecast_checkpoint_MB", f.checkpoint_size / 1e6}};
 }
 

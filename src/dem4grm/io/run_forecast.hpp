@@ -21,6 +21,7 @@ struct RunForecast {
   double preparation_time = 0.0;  ///< s, fill, compression and final friction
   double test_time = 0.0;         ///< s, shear, or the compression of a grain
   double results_size = 0.0;      ///< bytes that stay when the run is done
+  double store_size = 0.0;        ///< bytes of the branches kept for other preparations
   double checkpoint_size = 0.0;   ///< bytes while it runs; twice that for the moment in which one is replaced
 
   [[nodiscard]] double time() const { return preparation_time + test_time; }

@@ -14,8 +14,8 @@
 namespace dem {
 
 const char* state_name(RunState state) {
-  constexpr std::array<const char*, 7> k_names{"created", "preparing", "running", "stopping",
-                                               "stopped", "finished",  "failed"};
+  constexpr std::array<const char*, 8> k_names{"created", "preparing",      "running",  "stopping",
+                                               "stopped", "specimen ready", "finished", "failed"};
   return k_names[static_cast<std::size_t>(state)];
 }
 

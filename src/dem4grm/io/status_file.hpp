@@ -11,7 +11,7 @@
 namespace dem {
 
 /// States of a run, in the order in which they can follow each other.
-enum class RunState { created, preparing, running, stopping, stopped, finished, failed };
+enum class RunState { created, preparing, running, stopping, stopped, specimen_ready, finished, failed };
 
 const char* state_name(RunState state);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "dem4grm/version.hpp"
 
@@ -32,31 +33,60 @@ JsonObject origin_of(const std::string& test, const std::string& name, const Run
           {"threads", facts.threads}};
 }
 
-/// The void ratio that no stage measured is unknown, not zero.
+JsonValue optional_number(const std::optional<double>& value) { return value ? JsonValue(*value) : JsonValue(); }
+
+/// The search for the relative density, in the order of its branches.
+JsonValue branches_of(const SpecimenReport& report) {
+  JsonList list;
+  for (const Branch& b : report.branches) {
+    list.emplace_back(JsonObject{
+        {"friction", b.friction}, {"stress_kPa", b.stress / 1e3}, {"void_ratio", b.void_ratio}, {"steps", b.steps}});
+  }
+  return list;
+}
+
+/// What no stage measured is unknown, not zero.
 JsonObject specimen_of(const DirectShearCase& test, const DirectShearResult& r) {
   const SpecimenReport& s = r.specimen;
-  return {{"balls", r.balls},
-          {"clumps", r.clumps},
-          {"rubber_grains", r.rubber_grains},
-          {"bonds", r.bonds},
-          {"broken_bonds", r.broken_bonds},
-          {"lost_grains", r.lost_grains},
-          {"rubber_content", s.rubber_content},
-          {"void_ratio_generated", s.void_ratio_generated},
-          {"void_ratio_prepared", s.void_ratio_prepared},
-          {"void_ratio_before_shear", s.void_ratio_before_shear},
-          {"relative_density", JsonValue()},
-          {"preparation_friction", test.specimen.preparation_friction},
-          {"height_before_shear_mm", s.height * 1e3},
-          {"alignment_generated", s.alignment_generated},
-          {"alignment_before_shear", s.alignment_before_shear},
-          {"fill_overlap", s.fill_overlap},
-          {"caught_balls", s.caught},
-          {"mean_size_mm", s.mean_size * 1e3},
-          {"mean_density_kg_per_m3", s.mean_density},
-          {"steps_fill", s.fill_steps},
-          {"steps_compression", s.compression_steps},
-          {"steps_final_friction", s.friction_steps}};
+  return {
+      {"balls", r.balls},
+      {"clumps", r.clumps},
+      {"rubber_grains", r.rubber_grains},
+      {"bonds", r.bonds},
+      {"broken_bonds", r.broken_bonds},
+      {"lost_grains", r.lost_grains},
+      {"rubber_content", s.rubber_content},
+      {"void_ratio_generated", s.void_ratio_generated},
+      {"void_ratio_prepared", s.void_ratio_prepared},
+      {"void_ratio_before_shear", s.void_ratio_before_shear},
+      {"relative_density_target", s.branches.empty() ? JsonValue() : optional_number(test.specimen.relative_density)},
+      {"relative_density", optional_number(s.relative_density_reached())},
+      {"void_ratio_min", s.branches.empty() ? JsonValue() : JsonValue(s.branches[0].void_ratio)},
+      {"void_ratio_max", s.branches.empty() ? JsonValue() : JsonValue(s.branches[1].void_ratio)},
+      {"preparation_friction", s.preparation_friction},
+      {"branches", branches_of(s)},
+      {"height_before_shear_mm", s.height * 1e3},
+      {"alignment_generated", s.alignment_generated},
+      {"alignment_before_shear", s.alignment_before_shear},
+      {"fill_overlap", s.fill_overlap},
+      {"caught_balls", s.caught},
+      {"mean_size_mm", s.mean_size * 1e3},
+      {"mean_density_kg_per_m3", s.mean_density},
+      {"steps_fill", s.fill_steps},
+      {"steps_branches", s.branch_steps},
+      {"steps_compression", s.compression_steps},
+      {"steps_final_friction", s.friction_steps}};
+}
+
+JsonObject beginning_of(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts) {
+  JsonObject summary = origin_of("direct_shear", test.name, facts);
+  append(summary, {{"seed", static_cast<std::int64_t>(test.seed)},
+                   {"steps", result.steps},
+                   {"time_step_s", result.time_step},
+                   {"time_step_limited_by", result.specimen.time_step.limited_by},
+                   {"wall_time_s", facts.wall_time}});
+  append(summary, specimen_of(test, result));
+  return summary;
 }
 
 JsonObject curve_of(const DirectShearCase& test, const DirectShearResult& r) {
@@ -98,14 +128,16 @@ double energy_closure_per_cent(const EnergyReport& start, const EnergyReport& en
   return work != 0.0 ? 100.0 * (work - stored - lost) / std::fabs(work) : 0.0;
 }
 
+JsonObject specimen_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts) {
+  JsonObject summary = beginning_of(test, result, facts);
+  append(summary, {{"normal_stress_target_kPa", test.shear.normal_stress / 1e3},
+                   {"state_hash", result.state_hash},
+                   {"warnings", facts.warnings}});
+  return summary;
+}
+
 JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts) {
-  JsonObject summary = origin_of("direct_shear", test.name, facts);
-  append(summary, {{"seed", static_cast<std::int64_t>(test.seed)},
-                   {"steps", result.steps},
-                   {"time_step_s", result.time_step},
-                   {"time_step_limited_by", result.specimen.time_step.limited_by},
-                   {"wall_time_s", facts.wall_time}});
-  append(summary, specimen_of(test, result));
+  JsonObject summary = beginning_of(test, result, facts);
   append(summary, curve_of(test, result));
   append(summary, {{"hardening", result.curve.is_hardening}});
   append(summary, ending_of(facts, result.state_hash));

@@ -28,5 +28,7 @@ double energy_closure_per_cent(const EnergyReport& start, const EnergyReport& en
 JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts);
 JsonObject grain_compression_summary(const GrainCompressionCase& test, const GrainCompressionResult& result,
                                      const RunFacts& facts);
+/// All names of specimen.json: the part of summary.json that is known before shear.
+JsonObject specimen_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts);
 
 }  // namespace dem

@@ -8,6 +8,7 @@
 
 #include "dem4grm/io/checkpoint_file.hpp"
 #include "dem4grm/io/output_file.hpp"
+#include "dem4grm/io/specimen_file.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -21,9 +22,9 @@ ResultsOrigin origin_of(const LoadedCase& loaded) {
 
 }  // namespace
 
-RemainingTime remaining_time_of(const TestCase& test) {
+RemainingTime remaining_time_of(const TestCase& test, bool is_specimen_only) {
   if (const auto* shear = std::get_if<DirectShearCase>(&test)) {
-    return {"shear", shear->shear.displacement / shear->shear.velocity};
+    return {"shear", is_specimen_only ? 0.0 : shear->shear.displacement / shear->shear.velocity};
   }
   return {"compression", 0.0};
 }
@@ -36,7 +37,7 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
       links_(links),
       log_(folder.file(file_name::k_log)),
       status_(folder.file(file_name::k_status), case_name(loaded.test), threads),
-      remaining_(remaining_time_of(loaded.test)),
+      remaining_(remaining_time_of(loaded.test, links.is_specimen_only)),
       is_direct_shear_(std::holds_alternative<DirectShearCase>(loaded.test)),
       past_wall_time_(past_wall_time),
       last_checkpoint_(past_wall_time) {
@@ -45,6 +46,8 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
   log_.info(fmt::format("case {}", case_name(loaded.test)));
   if (is_direct_shear_) {
     table_.emplace(folder.file(file_name::k_shear), shear_columns());
+    store_.emplace(links.store.empty() ? folder.file(file_name::k_preparation) : links.store,
+                   std::get<DirectShearCase>(loaded.test));
   } else {
     table_.emplace(folder.file(file_name::k_grain), compression_columns());
   }
@@ -104,6 +107,20 @@ void TestWriter::resumed(const ResumedRun& past) {
   start_energy_.contact_strain = past.start_energy.contact_strain;
   start_energy_.bond_strain = past.start_energy.bond_strain;
   for (const ShearRow& row : past.rows) take_row(row);
+}
+
+std::optional<StateArchive> TestWriter::fetch_preparation(const std::string& name) {
+  return store_ ? store_->fetch(name) : std::nullopt;
+}
+
+void TestWriter::keep_preparation(const std::string& name, const StateArchive& state) {
+  if (store_) store_->keep(name, state);
+}
+
+void TestWriter::specimen_ready(const StateArchive& state, const SpecimenReport& report) {
+  add_specimen_state(folder_.file(file_name::k_specimen), state);
+  log_.info(fmt::format("specimen ready: void ratio {:.4f}, height {:.2f} mm", report.void_ratio_before_shear,
+                        report.height * 1e3));
 }
 
 ResultsFile& TestWriter::results() {
@@ -180,6 +197,13 @@ JsonObject TestWriter::finish(const DirectShearResult& result) {
   write_tables();
   JsonObject summary = direct_shear_summary(std::get<DirectShearCase>(loaded_.test), result, facts());
   write_summary(summary);
+  return summary;
+}
+
+JsonObject TestWriter::finish_specimen(const DirectShearResult& result) {
+  JsonObject summary = specimen_summary(std::get<DirectShearCase>(loaded_.test), result, facts());
+  replace_file(folder_.file(file_name::k_specimen_summary), json_text(summary));
+  status_.set_state(RunState::specimen_ready);
   return summary;
 }
 

@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "dem4grm/io/output_folder.hpp"
+#include "dem4grm/io/preparation_store.hpp"
 #include "dem4grm/io/remaining_time.hpp"
 #include "dem4grm/io/results_file.hpp"
 #include "dem4grm/io/run_log.hpp"
@@ -27,10 +29,12 @@ struct RunLinks {
   LabObserver* listener = nullptr;                        ///< hears everything that the writer hears; may be null
   const volatile std::sig_atomic_t* stop_flag = nullptr;  ///< not zero: stop at the next good point; may be null
   double checkpoint_interval = 600.0;                     ///< s of wall time between two checkpoints
+  std::filesystem::path store{};                          ///< of preparations; empty: in the output folder
+  bool is_specimen_only = false;                          ///< end with the finished specimen
 };
 
 /// The forecast of a test that has not begun.
-RemainingTime remaining_time_of(const TestCase& test);
+RemainingTime remaining_time_of(const TestCase& test, bool is_specimen_only = false);
 
 class TestWriter : public LabObserver {
  public:
@@ -49,10 +53,16 @@ class TestWriter : public LabObserver {
   bool wants_checkpoint(bool is_new_stage) override;
   void checkpoint(const StateArchive& state) override;
   void resumed(const ResumedRun& past) override;
+  std::optional<StateArchive> fetch_preparation(const std::string& name) override;
+  void keep_preparation(const std::string& name, const StateArchive& state) override;
+  void specimen_ready(const StateArchive& state, const SpecimenReport& report) override;
+  bool wants_shear() override { return !links_.is_specimen_only; }
 
   /// Completes all files; summary.json comes last and marks the folder as complete. Returns what it says.
   JsonObject finish(const DirectShearResult& result);
   JsonObject finish(const GrainCompressionResult& result);
+  /// For a test that ends with its specimen: specimen.json; the folder is ready for shear.
+  JsonObject finish_specimen(const DirectShearResult& result);
   /// Keeps what there is of a run that ends early. Throws nothing: the reason of the end matters more.
   void give_up(RunState state, const std::string& cause) noexcept;
 
@@ -75,6 +85,7 @@ class TestWriter : public LabObserver {
   RemainingTime remaining_;
   std::optional<ResultsFile> results_;
   std::optional<TableFile> table_;  ///< shear.csv or grain.csv
+  std::optional<PreparationStore> store_;
   bool is_direct_shear_;
   bool has_shear_begun_ = false;
   double past_wall_time_, last_checkpoint_;  ///< s of wall time, of all parts of the run

@@ -80,11 +80,13 @@ class ShearStage {
   void run(StateArchive* from) {
     if (from == nullptr) {
       write_frame();
+      tell_specimen();
       keep(true);
     } else {
       from->group("shear", [&] { exchange_all(*from); });
       observer_.resumed({rows_, written_frames_, start_energy_});
     }
+    if (!observer_.wants_shear()) return;
     while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
       advance();
       const bool is_watched = ++shear_steps_ % k_watch_interval == 0;
@@ -194,12 +196,19 @@ class ShearStage {
     ++next_frame_;
   }
 
-  void keep(bool is_new_stage) {
-    if (!observer_.wants_checkpoint(is_new_stage)) return;
+  StateArchive specimen_state() {
     StateArchive archive;
     std::string stage = "shear";
     archive.exchange("stage", stage);
     exchange(archive, specimen_);
+    return archive;
+  }
+
+  void tell_specimen() { observer_.specimen_ready(specimen_state(), specimen_.report); }
+
+  void keep(bool is_new_stage) {
+    if (!observer_.wants_checkpoint(is_new_stage)) return;
+    StateArchive archive = specimen_state();
     archive.group("shear", [&] { exchange_all(archive); });
     observer_.checkpoint(archive);
   }
@@ -258,7 +267,7 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
     out.unbalanced_ratio_mean += r.unbalanced_ratio;
     difference += std::fabs(r.half_force_difference);
   }
-  const auto n = static_cast<double>(out.rows.size());
+  const double n = std::max(1.0, static_cast<double>(out.rows.size()));
   out.normal_stress_mean /= n;
   out.unbalanced_ratio_mean /= n;
   if (out.curve.peak_stress > 0.0) out.half_force_imbalance_mean = difference / n / out.curve.peak_stress;
@@ -268,17 +277,15 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
   out.bonds = s.balls.n_grains * k_grain_bonds;
   out.broken_bonds = count_broken_bonds(s);
   out.lost_grains = count_lost_bodies(s, specimen.bounds);
-  out.steps = s.steps + specimen.report.fill_steps;
+  out.steps = s.steps + specimen.report.fill_steps + specimen.report.other_branch_steps();
   out.time_step = s.dt;
   out.state_hash = s.state_hash();
 }
 
-}  // namespace
-
-DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer, StateArchive* from) {
+PreparationHooks hooks_of(LabObserver& observer, StateArchive* from) {
   PreparationHooks hooks;
   hooks.resumed = from;
-  hooks.watch = [&](const PreparationState& state, const std::function<void(StateArchive&)>& save) {
+  hooks.watch = [&observer](const PreparationState& state, const std::function<void(StateArchive&)>& save) {
     Progress p;
     p.stage = state.stage;
     p.fraction = state.fraction;
@@ -287,14 +294,26 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
     p.unbalanced_ratio = state.rest.unbalanced_ratio;
     p.steps = state.rest.steps;
     p.time_step = state.time_step;
+    p.steps_to_last_stage = state.steps_left;
     if (!state.is_new_stage) observer.progress(p);  // a stage that has not begun has nothing to tell
     if (!observer.wants_checkpoint(state.is_new_stage)) return;
     StateArchive archive;
     save(archive);
     observer.checkpoint(archive);
   };
+  hooks.fetch = [&observer](const std::string& name) { return observer.fetch_preparation(name); };
+  hooks.keep = [&observer](const std::string& name, const StateArchive& state) {
+    observer.keep_preparation(name, state);
+  };
+  hooks.note = [&observer](const std::string& text) { observer.note(text); };
+  return hooks;
+}
+
+}  // namespace
+
+DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& observer, StateArchive* from) {
   const bool is_in_shear = from != nullptr && from->has_group("shear");
-  Specimen specimen = prepare_specimen(specimen_order(test), hooks);
+  Specimen specimen = prepare_specimen(specimen_order(test), hooks_of(observer, from));
   const double miss = specimen.report.height / test.box.height - 1.0;
   if (std::fabs(miss) > 0.05) {
     observer.warning(fmt::format(

@@ -3,17 +3,19 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/engine/simulation.hpp"
+#include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
 
 /// Where a running test stands. SI units; values that a stage does not have are 0.
 struct Progress {
-  std::string stage;           ///< "fill", "compression", "final friction", "shear"
+  std::string stage;           ///< as in PreparationState, then "shear"
   double fraction = 0.0;       ///< of this stage, 0 to 1; below 0 when the end cannot be foreseen
   double displacement = 0.0;   ///< m
   double shear_stress = 0.0;   ///< Pa
@@ -21,8 +23,9 @@ struct Progress {
   double void_ratio = 0.0;
   double inertial_number = 0.0;
   double unbalanced_ratio = 0.0;
-  std::int64_t steps = 0;  ///< of this stage
-  double time_step = 0.0;  ///< s
+  std::int64_t steps = 0;           ///< of this stage
+  double time_step = 0.0;           ///< s
+  double steps_to_last_stage = -1;  ///< estimate; below 0 when unknown
 };
 
 /// One row of the record of a shear test: means over one interval of displacement, SI units. Compression and dilation
@@ -87,6 +90,14 @@ class LabObserver {
   virtual void checkpoint(const StateArchive& /*state*/) {}
   /// Once, before anything else, when shear goes on from a checkpoint.
   virtual void resumed(const ResumedRun& /*past*/) {}
+
+  /// States of preparations, kept for later ones (PreparationHooks::fetch and keep).
+  virtual std::optional<StateArchive> fetch_preparation(const std::string& /*name*/) { return std::nullopt; }
+  virtual void keep_preparation(const std::string& /*name*/, const StateArchive& /*state*/) {}
+  /// The finished specimen, before the first step of shear, from which any shear stage may start.
+  virtual void specimen_ready(const StateArchive& /*state*/, const SpecimenReport& /*report*/) {}
+  /// False ends the test with the specimen.
+  virtual bool wants_shear() { return true; }
 };
 
 }  // namespace dem

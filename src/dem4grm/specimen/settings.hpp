@@ -15,10 +15,20 @@ struct GradingPoint {
 };
 using Grading = std::vector<GradingPoint>;
 
+/// Target of the search when a case names neither a relative density nor a preparation friction (Chew et al. 2022).
+inline constexpr double k_default_relative_density = 0.5;
+
 struct SpecimenSettings {
-  double rubber_content = 0.0;             ///< VRC, fraction of the solid volume
-  double preparation_friction = 0.3;       ///< of all contacts between grains while the plate compresses
-  Grading gravel_grading, rubber_grading;  ///< read from the files named in the case
+  double rubber_content = 0.0;                 ///< VRC, fraction of the solid volume
+  std::optional<double> relative_density;      ///< to be searched for, fraction
+  std::optional<double> preparation_friction;  ///< of all contacts between grains while the plate compresses; no search
+  double relative_density_tolerance = 0.02;    ///< absolute
+  double smallest_friction = 0.0;              ///< of the branch that gives e_min
+  double largest_friction = 2.0;               ///< of the branch that gives e_max
+  double branch_stress_ratio = 0.9;            ///< stress at which the branches are compared over the normal stress
+  double preparation_plate_friction = 0.0;     ///< of both plates until the final friction
+  std::vector<double> load_steps;              ///< Pa, rising: rest under these on the way to the normal stress
+  Grading gravel_grading, rubber_grading;      ///< read from the files named in the case
   std::string gravel_grading_file, rubber_grading_file;
   std::vector<std::string> clump_shapes{"T1", "T2", "T3", "T4", "T5", "T6"};
   std::optional<int> gravel_clumps;  ///< explicit count instead of the one from the box volume

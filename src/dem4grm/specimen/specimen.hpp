@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From settings to a specimen ready for shear: grains, random fill, compression, final friction.
+// From settings to a specimen ready for shear: grains, random fill, search for the friction that gives the relative
+// density, compression, final friction.
+//
+// Every branch of the search starts from the same fill, is compressed by the top plate with its own friction and comes
+// to rest under a part of the normal stress (Chew et al. 2022: 90 %), where its void ratio is read. The branch that has
+// the density asked for goes on to the normal stress. On the way a specimen may come to rest under smaller stresses, as
+// load steps in a laboratory: then a test at a larger stress begins with the states of one at a smaller stress, which a
+// store can hand over without changing a bit.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/engine/time_step.hpp"
+#include "dem4grm/specimen/density_search.hpp"
 #include "dem4grm/specimen/fill.hpp"
 #include "dem4grm/specimen/grain_list.hpp"
 #include "dem4grm/specimen/rest.hpp"
@@ -33,7 +43,9 @@ struct SpecimenOrder {
 struct SpecimenReport {
   double rubber_content = 0.0;  ///< VRC reached, fraction
   double void_ratio_generated = 0.0;
-  double void_ratio_prepared = 0.0;  ///< at the normal stress, with the preparation friction
+  double preparation_friction = 0.0;  ///< as given or found
+  std::vector<Branch> branches;       ///< e_min, e_max, trials; empty without a search
+  double void_ratio_prepared = 0.0;   ///< at the normal stress, with the preparation friction
   double void_ratio_before_shear = 0.0;
   double height = 0.0;               ///< m, before shear
   double alignment_generated = 0.0;  ///< rubber_alignment after the fill
@@ -43,7 +55,14 @@ struct SpecimenReport {
   double mean_size = 0.0;     ///< m, volume-weighted mean grain size
   double mean_density = 0.0;  ///< kg/m3, volume-weighted density of the solids
   TimeStepLimit time_step;
-  std::int64_t fill_steps = 0, compression_steps = 0, friction_steps = 0;
+  std::int64_t fill_steps = 0, branch_steps = 0, compression_steps = 0, friction_steps = 0;
+
+  /// Of the branch that was chosen, at the stress of the branches; none without a search.
+  [[nodiscard]] std::optional<double> relative_density_reached() const;
+  /// Steps of the branches that the specimen itself did not go through.
+  [[nodiscard]] std::int64_t other_branch_steps() const {
+    return branches.empty() ? 0 : branch_steps - branches.back().steps;
+  }
 };
 
 /// A specimen at rest under its normal stress with its final friction.
@@ -58,10 +77,11 @@ struct Specimen {
 
 /// Where a preparation stands.
 struct PreparationState {
-  std::string stage;          ///< "fill", "compression", "final friction"
-  double fraction = -1;       ///< of the fill; below 0 when the end cannot be foreseen
-  RestState rest;             ///< of the stages after the fill
-  double time_step = 0.0;     ///< s; 0 during the fill, where it changes
+  std::string stage;       ///< "fill", "e_min (friction 0)", "trial 1 (friction 0.1)", "compression", "final friction"
+  double fraction = -1;    ///< of the fill; below 0 when the end cannot be foreseen
+  RestState rest;          ///< of the stages after the fill, its steps counted from the beginning of the stage
+  double time_step = 0.0;  ///< s; 0 during the fill, where it changes
+  double steps_left = -1;  ///< estimate of the steps until shear, all branches included; below 0 when unknown
   bool is_new_stage = false;  ///< a stage has just been finished, the next one not begun
 };
 
@@ -71,6 +91,12 @@ struct PreparationHooks {
   std::function<void(const PreparationState& now, const std::function<void(StateArchive&)>& save)> watch;
   /// What `save` wrote earlier, or null to begin at the beginning.
   StateArchive* resumed = nullptr;
+  /// A state that an earlier preparation of the same materials, box and seed kept under that name, or nothing.
+  std::function<std::optional<StateArchive>(const std::string& name)> fetch;
+  /// Keeps a state for later preparations: the fill, and every branch at rest under each of its stresses.
+  std::function<void(const std::string& name, const StateArchive& state)> keep;
+  /// Told what a branch gave.
+  std::function<void(const std::string& text)> note;
 };
 
 /// Prepares a specimen. Throws InputError for grains that cannot be drawn, PhysicsError when a stage fails, IoError when
@@ -83,6 +109,11 @@ Specimen load_specimen(const SpecimenOrder& order, StateArchive& state);
 
 /// Saves or loads a finished specimen; loading is left to prepare_specimen, which knows how to build one.
 void exchange(StateArchive& archive, Specimen& specimen);
+void exchange(StateArchive& archive, std::vector<Branch>& branches);
+void exchange(StateArchive& archive, RestState& rest);
+void exchange(StateArchive& archive, FillState& fill);
+/// A finished fill with the numbering of its gravel grains.
+void exchange(StateArchive& archive, Fill& fill);
 
 /// Largest overlap over the smaller radius beyond which a run is stopped as broken.
 inline constexpr double k_overlap_limit = 1.2;

@@ -23,6 +23,7 @@ DirectShearCase small_test(int hz_mode) {
   DirectShearCase test;
   test.name = "energy";
   test.specimen.rubber_content = 0.30;
+  test.specimen.preparation_friction = 0.3;
   test.specimen.gravel_grading = {{3.4e-3, 0.0}, {5.0e-3, 1.0}};
   test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
   test.box.length = test.box.width = 0.030;

@@ -140,15 +140,22 @@ TEST(CaseErrors, WrongKinds) {
       "case.toml:1:1: error: box is a section: write [box] on a line of its own, then its keys below");
 }
 
-TEST(CaseErrors, RelativeDensityPointsToPreparationFriction) {
-  EXPECT_EQ(mistake("specimen", "relative_density = 0.5"),
-            "2:1: error: specimen.relative_density: the search for a relative density does not exist yet; give "
-            "preparation_friction instead");
+TEST(CaseErrors, DensityOrFriction) {
+  EXPECT_EQ(mistake("specimen", "relative_density = 0.5\npreparation_friction = 0.2"),
+            "3:24: error: specimen.preparation_friction and specimen.relative_density exclude each other");
+  EXPECT_EQ(mistake("specimen", "relative_density = 50"),
+            "2:20: error: specimen.relative_density = 50 is outside [0.02, 0.98]");
+  EXPECT_EQ(mistake("specimen", "smallest_friction = 2.5"),
+            "2:21: error: specimen.smallest_friction = 2.5 must be below specimen.largest_friction = 2");
+  EXPECT_EQ(mistake("specimen", "load_steps = [\"60 kPa\", \"30 kPa\"]"),
+            "2:14: error: specimen.load_steps must rise from entry to entry");
+  EXPECT_EQ(mistake("specimen", "dr = 0.5"),
+            "2:1: error: unknown key \"dr\" in [specimen]; did you mean \"relative_density\"?");
 }
 
 TEST(CaseErrors, RulesBetweenKeys) {
-  EXPECT_EQ(mistake("box", "width = \"30 mm\""),
-            "6:9: error: box.width = 30 mm is less than 5 of the largest grains (8.5 mm): at least 42.5 mm");
+  EXPECT_EQ(mistake("box", "width = \"16 mm\""),
+            "6:9: error: box.width = 16 mm is less than 2 of the largest grains (8.5 mm): at least 17 mm");
   EXPECT_EQ(mistake("box", "upper_height = \"20 mm\""),
             "6:16: error: box.upper_height = 20 mm must be greater than half of box.height (26.5 mm)");
   EXPECT_EQ(mistake("box", "wing = \"10 mm\""),

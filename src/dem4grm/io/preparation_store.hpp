@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// States of preparations that later ones may begin with: the random fill, and branches at rest under a stress.
+//
+// A state is handed over only to a preparation that would arrive at the same bits: materials, box, gradings, seed and
+// rules of rest must agree, and the program must be of the same commit. Friction and stress are in the name of a state.
+// So a test ends with the same bits whether it found states or not.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "dem4grm/core/state_archive.hpp"
+#include "dem4grm/lab/case.hpp"
+
+namespace dem {
+
+/// The case as TOML without what does not matter to the states kept: name, target of the search, stresses, shear, record.
+std::string preparation_text(const DirectShearCase& test);
+
+class PreparationStore {
+ public:
+  /// States of this case lie in a subfolder of `folder`, named by the fingerprint of preparation_text. Several processes
+  /// may share a folder.
+  PreparationStore(const std::filesystem::path& folder, const DirectShearCase& test);
+
+  /// A state that was kept under that name; nothing when there is none, or none that can be used.
+  [[nodiscard]] std::optional<StateArchive> fetch(const std::string& name) const;
+  /// Throws IoError when it cannot be written.
+  void keep(const std::string& name, const StateArchive& state) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path file_of(const std::string& name) const;
+
+  std::filesystem::path folder_;
+  std::string text_;
+};
+
+}  // namespace dem

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/specimen/specimen_parts.hpp"
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/space_curve.hpp"
+#include "dem4grm/grains/rubber_size.hpp"
+#include "dem4grm/walls/shear_box.hpp"
+
+namespace dem {
+
+void describe(const GrainList& g, const SpecimenOrder& order, SpecimenReport& report) {
+  double size = 0.0;
+  for (const GravelGrain& grain : g.gravel) {
+    const double d = grain.sieve_size;
+    size += g.shapes[static_cast<std::size_t>(grain.shape)].volume * d * d * d * d;
+  }
+  const double rubber_size =
+      g.rubber_count > 0 ? rubber_grain_size(g.rubber_ball_radius, order.materials.rubber.density, order.solid_density)
+                         : 0.0;
+  const double total = g.solid_volume();
+  report.mean_size = (size + g.rubber_volume * rubber_size) / total;
+  report.mean_density =
+      (g.gravel_volume * order.materials.gravel.density + g.rubber_volume * order.solid_density) / total;
+  report.rubber_content = g.rubber_content();
+}
+
+void renumber_gravel(GrainList& grains, const std::vector<int>& order) {
+  const std::vector<GravelGrain> old = grains.gravel;
+  std::vector<bool> is_used(old.size(), false);
+  if (order.size() != old.size()) throw IoError("the saved state holds another number of gravel grains");
+  for (std::size_t k = 0; k < old.size(); ++k) {
+    const auto from = static_cast<std::size_t>(order[k]);
+    if (from >= old.size() || is_used[from]) throw IoError("the saved state numbers its gravel grains wrongly");
+    is_used[from] = true;
+    grains.gravel[k] = old[from];
+  }
+}
+
+std::vector<int> number_along_curve(GrainList& grains, Fill& fill) {
+  const auto position_of = [](const Pose& pose) { return pose.position; };
+  sort_along_curve(fill.rubber, position_of);
+  std::vector<int> order = sort_along_curve(fill.gravel, position_of);
+  renumber_gravel(grains, order);
+  return order;
+}
+
+Scene scene_of(const SpecimenOrder& order, const GrainList& grains, const Fill& fill) {
+  Scene scene = order.materials;
+  scene.rubber_ball_radius = grains.rubber_ball_radius;
+  scene.grains = fill.rubber;
+  scene.shapes = grains.shapes;
+  for (std::size_t k = 0; k < grains.gravel.size(); ++k) {
+    scene.clumps.push_back({grains.gravel[k].shape, grains.gravel[k].sieve_size, fill.gravel[k], k_gravel});
+  }
+  scene.wall_list = ShearBox(order.box, fill.height).walls();
+  return scene;
+}
+
+Fill fill_of_nowhere(const SpecimenOrder& order, const GrainList& grains) {
+  Fill nowhere;
+  nowhere.gravel.resize(grains.gravel.size());
+  nowhere.rubber.resize(static_cast<std::size_t>(grains.rubber_count));
+  nowhere.height = order.box.height;
+  return nowhere;
+}
+
+FrictionTable preparation_friction(double friction) {
+  FrictionTable t;
+  for (auto& row : t.between_grains) row.fill(friction);
+  t.against_walls.fill(friction);
+  return t;
+}
+
+}  // namespace dem

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The store of preparations: which cases share states, and what happens to files that do not fit.
+#include "dem4grm/io/preparation_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+namespace dem {
+namespace {
+
+DirectShearCase any_case() {
+  DirectShearCase test;
+  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {6.0e-3, 1.0}};
+  test.shear.normal_stress = 30e3;
+  return test;
+}
+
+StateArchive some_state(double number) {
+  StateArchive archive;
+  archive.exchange("number", number);
+  return archive;
+}
+
+double number_in_state(std::optional<StateArchive> state) {
+  double number = 0.0;
+  state.value().exchange("number", number);
+  return number;
+}
+
+class PreparationStoreTest : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::remove_all(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "preparation_store";
+};
+
+TEST_F(PreparationStoreTest, GivesBackWhatWasKept) {
+  const PreparationStore store(folder_, any_case());
+  EXPECT_FALSE(store.fetch("fill"));
+  store.keep("fill", some_state(0.1));
+  store.keep("fill", some_state(0.2));
+  EXPECT_EQ(number_in_state(store.fetch("fill")), 0.2);
+  EXPECT_FALSE(store.fetch("other"));
+}
+
+TEST_F(PreparationStoreTest, IsSharedByCasesThatWouldArriveAtTheSameState) {
+  using Change = std::function<void(DirectShearCase&)>;
+  const std::vector<Change> harmless{
+      [](auto& c) { c.name = "another"; },
+      [](auto& c) { c.shear.normal_stress = 60e3; },
+      [](auto& c) { c.shear.velocity = 0.02; },
+      [](auto& c) { c.recording.interval = 1e-4; },
+      [](auto& c) { c.specimen.relative_density = 0.7; },
+      [](auto& c) { c.specimen.load_steps = {10e3}; },
+      [](auto& c) { c.specimen.preparation_friction = 0.2; },
+  };
+  const std::vector<Change> decisive{
+      [](auto& c) { c.seed = 2; },
+      [](auto& c) { c.specimen.rubber_content = 0.1; },
+      [](auto& c) { c.specimen.gravel_grading[1].size = 6.1e-3; },
+      [](auto& c) { c.specimen.generation_void_ratio = 0.7; },
+      [](auto& c) { c.specimen.preparation_plate_friction = 0.1; },
+      [](auto& c) { c.box.length = 0.099; },
+      [](auto& c) { c.gravel.shear_modulus = 80e6; },
+      [](auto& c) { c.integration.local_damping = 0.3; },
+      [](auto& c) { c.equilibrium.branch_force_ratio = 2e-3; },
+  };
+  PreparationStore(folder_, any_case()).keep("fill", some_state(0.3));
+  for (std::size_t k = 0; k < harmless.size(); ++k) {
+    DirectShearCase test = any_case();
+    harmless[k](test);
+    EXPECT_TRUE(PreparationStore(folder_, test).fetch("fill")) << "change " << k;
+  }
+  for (std::size_t k = 0; k < decisive.size(); ++k) {
+    DirectShearCase test = any_case();
+    decisive[k](test);
+    EXPECT_FALSE(PreparationStore(folder_, test).fetch("fill")) << "change " << k;
+  }
+}
+
+TEST_F(PreparationStoreTest, PassesOverDamagedFiles) {
+  const PreparationStore store(folder_, any_case());
+  store.keep("fill", some_state(0.1));
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+    if (entry.is_regular_file()) std::ofstream(entry.path()) << "no state";
+  }
+  EXPECT_FALSE(store.fetch("fill"));
+  store.keep("fill", some_state(0.4));
+  EXPECT_EQ(number_in_state(store.fetch("fill")), 0.4);
+}
+
+}  // namespace
+}  // namespace dem
