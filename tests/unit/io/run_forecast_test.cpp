@@ -37,10 +37,26 @@ TEST(RunForecast, AQuickPlatePreparesInFewerSteps) {
 TEST(RunForecast, EveryStateTakesItsRoom) {
   DirectShearCase test = mixture_case(0.3);
   test.recording.extra_frames = {};
-  test.recording.frame_interval = test.shear.displacement;
-  const double two_states = forecast_of(test).results_size;
-  test.recording.frame_interval = test.shear.displacement / 10.0;
-  EXPECT_GT(forecast_of(test).results_size, 3.0 * two_states);
+  const auto size_with_states_every = [&](double interval) {
+    test.recording.frame_interval = interval;
+    return forecast_of(test).results_size;
+  };
+  const double end = test.shear.displacement;
+  const double two_states = size_with_states_every(end), three = size_with_states_every(end / 2.0);
+  EXPECT_GT(three, two_states);
+  EXPECT_NEAR(size_with_states_every(end / 10.0) - two_states, 9.0 * (three - two_states), 1e-6 * two_states);
+}
+
+TEST(RunForecast, ASearchTakesTimeAndKeepsItsBranches) {
+  DirectShearCase test = mixture_case(0.3);
+  const RunForecast given = forecast_of(test);
+  EXPECT_EQ(given.store_size, 0.0);
+  test.specimen.preparation_friction.reset();
+  const RunForecast searched = forecast_of(test);
+  EXPECT_GT(searched.steps, given.steps);
+  EXPECT_GT(searched.store_size, 2.0 * searched.checkpoint_size);
+  test.specimen.load_steps = {30e3, 60e3, 100e3};  // the last is not below the normal stress
+  EXPECT_NEAR(forecast_of(test).store_size, 3.0 * searched.store_size, 1.0);
 }
 
 TEST(RunForecast, OfAGrainBetweenPlates) {
