@@ -23,6 +23,7 @@ class ThreadTuner : public LabObserver {
   void note(const std::string& text) override { next_.note(text); }
   void warning(const std::string& text) override { next_.warning(text); }
   void shear_row(const ShearRow& row) override { next_.shear_row(row); }
+  void micro_row(const MicroRow& row) override { next_.micro_row(row); }
   void compression_row(const CompressionRow& row) override { next_.compression_row(row); }
   void frame(const Simulation& state, const FrameInfo& info) override { next_.frame(state, info); }
 

@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <sstream>
+
 #include "dem4grm/version.hpp"
 #include "support/command_line.hpp"
 
@@ -27,7 +30,7 @@ TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
 
 TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
   for (const std::vector<std::string>& verb :
-       std::vector<std::vector<std::string>>{{}, {"new"}, {"check"}, {"run"}, {"info"}, {"verify"}}) {
+       std::vector<std::vector<std::string>>{{}, {"new"}, {"check"}, {"run"}, {"info"}, {"micro"}, {"verify"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProgramResult result = run(arguments);
@@ -125,13 +128,13 @@ TEST_F(CommandLine, SameBytesForAnyNumberOfThreads) {
   const ProgramResult two = run({"run", "tiny.toml", "-o", "two", "-j", "2"});
   ASSERT_EQ(one.exit_code, 0) << one.err;
   ASSERT_EQ(two.exit_code, 0) << two.err;
-  for (const char* file : {"shear.csv", "results.h5", "specimen.h5", "case.toml", "resolved.toml"}) {
+  for (const char* file : {"shear.csv", "micro.csv", "results.h5", "specimen.h5", "case.toml", "resolved.toml"}) {
     const std::string bytes = read_all(folder_ / "one" / file);
     EXPECT_FALSE(bytes.empty()) << file;
     EXPECT_TRUE(bytes == read_all(folder_ / "two" / file)) << file;
   }
   double size = 0.0;
-  for (const char* file : {"shear.csv", "results.h5", "specimen.h5"}) {
+  for (const char* file : {"shear.csv", "micro.csv", "results.h5", "specimen.h5"}) {
     size += static_cast<double>(std::filesystem::file_size(folder_ / "one" / file));
   }
   const JsonObject forecast = parse_json(run({"check", "tiny.toml", "--json"}).out, "check");
@@ -185,6 +188,68 @@ TEST_F(CommandLine, ARunTellsItsStoryAndIsNotRepeated) {
   std::filesystem::copy_file(folder_ / "runs/tiny/specimen.h5", folder_ / "runs/tiny/results.h5",
                              std::filesystem::copy_options::overwrite_existing);
   expect(74, "not of one run", {"info", "runs/tiny"});
+}
+
+/// The field of a column in the row whose displacement begins with the text.
+double field_of(const std::string& csv, const std::string& column, const std::string& displacement) {
+  std::istringstream lines(csv);
+  std::string line, name, value;
+  std::getline(lines, line);
+  const std::string header = line;
+  while (std::getline(lines, line)) {
+    if (!line.starts_with(displacement)) continue;
+    std::istringstream names(header), values(line);
+    while (std::getline(names, name, ',') && std::getline(values, value, ',')) {
+      if (name == column) return std::stod(value);
+    }
+  }
+  ADD_FAILURE() << column << " at " << displacement;
+  return 0.0;
+}
+
+TEST_F(CommandLine, MicroReadsWhatTheRunRecorded) {
+  ASSERT_EQ(run({"run", "tiny.toml", "-o", "out", "-q"}).exit_code, 0);
+  const std::string csv = read_all(folder_ / "out/micro.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7) << "the header and 0, 0.2, ... 1 mm";
+  const ProgramResult table = run({"micro", "out", "--at", "0.5mm", "--bootstrap", "20", "--histogram", "polar.csv"});
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  for (const char* part : {"state 0002 at 0.5", "g-r", "theta_n", "95 % band", "bulk_friction", "bond_strain"}) {
+    EXPECT_NE(table.out.find(part), std::string::npos) << table.out;
+  }
+  EXPECT_TRUE(read_all(folder_ / "polar.csv").starts_with("set,angle_deg,"));
+  // The stored state gives the digits of the row that was written while the test ran.
+  const ProgramResult result = run({"micro", "out", "--at", "0.2 mm", "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const JsonObject answer = parse_json(result.out, "micro --json");
+  const auto& all =
+      std::get<JsonObject>(find_field(std::get<JsonObject>(find_field(answer, "sets")->data), "all")->data);
+  EXPECT_EQ(number_in(all, "a_n"), field_of(csv, "a_n_all", "0.2"));
+  EXPECT_EQ(number_in(all, "theta_n_deg"), field_of(csv, "theta_n_all_deg", "0.2"));
+  EXPECT_EQ(number_in(answer, "stress_zz_kPa"), field_of(csv, "stress_zz_kPa", "0.2"));
+  EXPECT_EQ(number_in(answer, "bond_strain"), field_of(csv, "bond_strain", "0.2"));
+  const JsonObject summary = json("out/summary.json");
+  EXPECT_GT(number_in(std::get<JsonObject>(find_field(summary, "micro_at_peak")->data), "a_n"), 0.0);
+
+  // The script makes the histograms from the stored contacts in NumPy: another reading of the same formulas.
+  const ProgramResult script = test::run_program(
+      {"/usr/bin/python3", std::string(DEM_SOURCE_DIR) + "/tools/plot_micro.py", "out", "--at", "0.2", "0.5"},
+      folder_.path());
+  EXPECT_EQ(script.exit_code, 0) << script.err;
+  EXPECT_GT(std::filesystem::file_size(folder_ / "out/micro.png"), 10000U);
+  const std::string expected =
+      fmt::format("a {:.4f}, theta_a {:.3f} deg; a_n {:.4f}, theta_n {:.3f} deg; a_t {:.4f}, theta_t {:.3f} deg",
+                  number_in(all, "a"), number_in(all, "theta_a_deg"), number_in(all, "a_n"),
+                  number_in(all, "theta_n_deg"), number_in(all, "a_t"), number_in(all, "theta_t_deg"));
+  EXPECT_NE(script.out.find(expected), std::string::npos) << script.out << expected;
+
+  expect(66, "there are states at 0, 0.2, 0.5, 1 mm", {"micro", "out", "--at", "7mm"});
+  expect(66, "absent", {"micro", "absent"});
+  expect(66, "has no results.h5", {"micro", "."});
+  expect(74, "tiny.toml", {"micro", "tiny.toml"});
+  expect(64, "has no unit", {"micro", "out", "--at", "7"});
+  expect(64, "must divide 180", {"micro", "out", "--bin-width", "7"});
+  expect(64, "--level", {"micro", "out", "--level", "grain"});
+  expect(64, "--bootstrap", {"micro", "out", "--bootstrap", "-1"});
 }
 
 TEST_F(CommandLine, QuietRunSaysNothingAndJsonRunOnlyJson) {

@@ -41,12 +41,40 @@ struct Listener : LabObserver {
   std::vector<std::string> hashes;
   std::vector<double> frame_displacements;
   int rows = 0;
+  std::vector<MicroRow> micro;
+  void micro_row(const MicroRow& row) override { micro.push_back(row); }
   void shear_row(const ShearRow& /*row*/) override { ++rows; }
   void frame(const Simulation& /*state*/, const FrameInfo& info) override {
     hashes.push_back(info.state_hash);
     frame_displacements.push_back(info.displacement);
   }
 };
+
+/// Rows at 0, every 0.2 mm and the end; stress of the contacts is that of the walls; shares add up.
+void expect_consistent_micro(const std::vector<MicroRow>& rows, double rubber_content) {
+  ASSERT_EQ(rows.size(), 9U);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_NEAR(rows[k].displacement, std::min(0.2e-3 * static_cast<double>(k), 1.5e-3), 1.1e-5);
+    const MicroNumbers& n = rows[k].numbers;
+    EXPECT_NEAR(n.plate_stress / 60e3, 1.0, 0.05);
+    EXPECT_LT(n.stress_difference, 0.03) << "row " << k;
+    EXPECT_NEAR(n.sets[1].strong_share + n.sets[2].strong_share + n.sets[3].strong_share, 1.0, 1e-12);
+    EXPECT_EQ(n.sets[1].contacts + n.sets[2].contacts + n.sets[3].contacts, n.of_all().contacts);
+    EXPECT_EQ(n.strong_spans, 1.0);
+    EXPECT_LT(n.of_all().bulk_friction, 0.72);
+    EXPECT_EQ(std::isnan(n.bond_strain), rubber_content == 0.0);
+    if (rubber_content == 0.0 || rubber_content == 1.0) {
+      EXPECT_EQ(n.sets[rubber_content == 0.0 ? 1 : 3].strong_share, 1.0);
+    }
+  }
+  // Lower half to +x: the push goes from low -x to high +x, so the axis of the forces turns from vertical to below 90.
+  const MicroNumbers &first = rows.front().numbers, &last = rows.back().numbers;
+  constexpr double degree = 3.14159265358979 / 180.0;
+  EXPECT_NEAR(first.stress_direction / degree, 90.0, 15.0);
+  EXPECT_LT(last.stress_direction / degree, 80.0);
+  EXPECT_GT(last.stress_direction / degree, 15.0);
+  EXPECT_NEAR(last.of_all().normal_direction / degree, last.stress_direction / degree, 20.0);
+}
 
 class SmallShear : public testing::TestWithParam<double> {};
 
@@ -79,6 +107,7 @@ TEST_P(SmallShear, HoldsItsStressLosesNothingAndBalances) {
   ASSERT_EQ(listener.frame_displacements.size(), 3U);
   EXPECT_NEAR(listener.frame_displacements[1], 1.0e-3, 1e-5);
   EXPECT_EQ(listener.hashes.back(), r.state_hash);
+  expect_consistent_micro(listener.micro, GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Mixtures, SmallShear, testing::Values(0.0, 0.3, 1.0));

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -39,16 +42,26 @@ DirectShearCase tiny_case() {
   test.equilibrium.stress_tolerance = 0.05;
   test.equilibrium.hold_steps = 200;
   test.recording.frame_interval = 0.2e-3;
+  test.recording.micro_interval = 0.1e-3;
   return test;
 }
 
 struct Stop {};
+
+/// The bits of rows: "not a number" counts as equal to itself.
+using MicroBits = std::array<std::uint64_t, sizeof(MicroRow) / sizeof(std::uint64_t)>;
+std::vector<MicroBits> bits_of(const std::vector<MicroRow>& rows) {
+  std::vector<MicroBits> bits;
+  for (const MicroRow& row : rows) bits.push_back(std::bit_cast<MicroBits>(row));
+  return bits;
+}
 
 /// Stops at the n-th offer of a checkpoint, keeps its state and what was recorded.
 struct Interrupter : LabObserver {
   int offers_left = -1;  ///< never stops when negative
   std::optional<std::vector<StateEntry>> state;
   std::vector<ShearRow> rows;
+  std::vector<MicroRow> micro_rows;
   std::map<int, std::string> hashes;
   int offers = 0, new_stages = 0;
   std::string stage;
@@ -65,9 +78,11 @@ struct Interrupter : LabObserver {
   }
   void resumed(const ResumedRun& past) override {
     rows.assign(past.rows.begin(), past.rows.end());
+    micro_rows.assign(past.micro_rows.begin(), past.micro_rows.end());
     for (const FrameInfo& f : past.frames) hashes[f.number] = f.state_hash;
   }
   void shear_row(const ShearRow& row) override { rows.push_back(row); }
+  void micro_row(const MicroRow& row) override { micro_rows.push_back(row); }
   void frame(const Simulation& /*state*/, const FrameInfo& info) override { hashes[info.number] = info.state_hash; }
 };
 
@@ -142,6 +157,7 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
   Interrupter straight;
   const DirectShearResult expected = run_direct_shear(test, straight);
   EXPECT_EQ(straight.new_stages, 3) << "after the fill, the compression and the final friction";
+  EXPECT_EQ(expected.micro_rows.size(), 7U) << "at 0, 0.1, ... 0.6 mm";
 
   RandomSequence random(7, RandomStream::test, 0);
   std::map<std::string, int> stopped_in;
@@ -150,6 +166,7 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
     // Stopped up to three times on its way, each part with another number of threads.
     std::optional<std::vector<StateEntry>> state;
     std::map<int, std::string> hashes;
+    std::vector<MicroRow> heard;
     std::optional<DirectShearResult> result;
     for (int part = 0; !result; ++part) {
       omp_set_num_threads(1 + (trial + part) % 3);
@@ -163,6 +180,7 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
         if (state) from.emplace(*state);
         result = run_direct_shear(test, now, from ? &*from : nullptr);
         hashes = now.hashes;
+        heard = now.micro_rows;
       } catch (const Stop&) {
         ++stopped_in[now.stage];
         state = now.state;
@@ -170,6 +188,8 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
     }
     EXPECT_EQ(result->state_hash, expected.state_hash) << "trial " << trial;
     EXPECT_EQ(hashes, straight.hashes) << "trial " << trial;
+    EXPECT_TRUE(bits_of(result->micro_rows) == bits_of(expected.micro_rows)) << "trial " << trial;
+    EXPECT_TRUE(bits_of(heard) == bits_of(straight.micro_rows)) << "trial " << trial;
     ASSERT_EQ(result->rows.size(), expected.rows.size());
     for (std::size_t k = 0; k < expected.rows.size(); ++k) {
       EXPECT_EQ(result->rows[k].shear_stress, expected.rows[k].shear_stress) << "row " << k;

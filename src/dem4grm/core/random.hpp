@@ -17,6 +17,7 @@ enum class RandomStream : std::uint64_t {
   grain_order = 5,
   monte_carlo = 6,
   stiffest_mode = 7,
+  bootstrap = 8,
   test = 99,
 };
 

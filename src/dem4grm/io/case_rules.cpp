@@ -142,7 +142,8 @@ void check_box(const DirectShearCase& test, Rules& rules) {
 }
 
 void check_recording(const DirectShearCase& test, Rules& rules) {
-  const auto& [given, problems] = rules;
+  const GivenKeys& given = rules.given;
+  CaseProblems& problems = rules.problems;
   const RecordingSettings& recording = test.recording;
   const double displacement = test.shear.displacement;
   if (given.are_good({"recording.interval", "shear.displacement"}) && recording.interval > displacement) {
@@ -150,12 +151,14 @@ void check_recording(const DirectShearCase& test, Rules& rules) {
                    fmt::format("recording.interval = {} is longer than shear.displacement = {}",
                                length_text(recording.interval), length_text(displacement)));
   }
-  if (given.are_good({"recording.interval", "recording.frame_interval"}) &&
-      recording.frame_interval < recording.interval) {
-    problems.error(given.place_of({"recording.frame_interval", "recording.interval"}),
-                   fmt::format("recording.frame_interval = {} is shorter than recording.interval = {}",
-                               length_text(recording.frame_interval), length_text(recording.interval)));
-  }
+  const auto check_not_shorter = [&](std::string_view key, double value) {
+    if (!given.are_good({"recording.interval", key}) || value >= recording.interval) return;
+    problems.error(given.place_of({key, "recording.interval"}),
+                   fmt::format("{} = {} is shorter than recording.interval = {}", key, length_text(value),
+                               length_text(recording.interval)));
+  };
+  check_not_shorter("recording.frame_interval", recording.frame_interval);
+  check_not_shorter("recording.micro_interval", recording.micro_interval);
   if (given.has("recording.extra_frames") && given.are_good({"recording.extra_frames", "shear.displacement"})) {
     const auto& frames = recording.extra_frames;
     const auto largest = std::max_element(frames.begin(), frames.end());

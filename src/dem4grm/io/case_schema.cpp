@@ -205,6 +205,8 @@ void add_shear_and_recording(Keys& keys, ShearSettings& shear, RecordingSettings
      .range = {1e-6, 1}, .help = "displacement between full states"},
     {.section = "recording", .name = "extra_frames", .slot = &recording.extra_frames, .dimension = k_length,
      .range = {0, 1}, .help = "displacements of further full states"},
+    {.section = "recording", .name = "micro_interval", .slot = &recording.micro_interval, .dimension = k_length,
+     .range = {1e-6, 1}, .help = "displacement between rows of micro.csv"},
   });
 }
 

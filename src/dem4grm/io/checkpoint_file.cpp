@@ -14,7 +14,7 @@
 namespace dem {
 namespace {
 
-constexpr std::int64_t k_format = 3;  // raised with every change of what is saved
+constexpr std::int64_t k_format = 4;  // raised with every change of what is saved
 
 /// Errors of the library name the object; the user needs the file.
 template <class Work>

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "dem4grm/engine/observe.hpp"
+#include "dem4grm/micro/contact_network.hpp"
+#include "dem4grm/micro/rubber_strain.hpp"
 
 namespace dem {
 namespace {
@@ -73,48 +75,39 @@ void write_rubber_grains(const Handle& frame, const Simulation& s) {
 
 struct ContactColumns {
   std::vector<std::int32_t> ball_i, ball_j, wall, body_i, body_j;
-  std::vector<double> point, normal, normal_force, shear_force;
+  std::vector<double> point, normal, normal_force, shear_force, friction;
+  std::vector<std::uint8_t> is_sliding;
 };
 
-/// Takes one row of the contact table; normal: from i to its partner, lever_i: from the centre of i to the point.
-void take_contact(ContactColumns& columns, const Simulation& s, std::size_t row, const Vec3& centre,
-                  const Vec3& normal) {
-  const Vec3 force = s.contacts.force(row);  // on i
-  const double along = dot(force, normal);
-  append(columns.point, centre + normal * s.contacts.lever_i(row));
-  append(columns.normal, normal);
-  columns.normal_force.push_back(-along);
-  append(columns.shear_force, force - normal * along);
+/// What contacts with balls and with walls have in common.
+template <class AnyContact>
+void take_contact(ContactColumns& columns, const AnyContact& c) {
+  append(columns.point, c.point);
+  append(columns.normal, c.normal);
+  columns.normal_force.push_back(c.normal_force);
+  append(columns.shear_force, c.shear_force);
+  columns.friction.push_back(c.friction);
+  columns.is_sliding.push_back(c.is_sliding ? 1 : 0);
 }
 
-bool has_force(const Vec3& f) { return f.x != 0.0 || f.y != 0.0 || f.z != 0.0; }
-
 ContactColumns collect_contacts(const Simulation& s) {
+  const ContactNetwork network = contact_network_of(s);
   ContactColumns columns;
-  const ContactTable& t = s.contacts;
-  for (std::size_t row = 0; row < t.n_pairs(); ++row) {
-    if (!has_force(t.force(row))) continue;
-    const int i = first_of(t.pairs[row]), j = second_of(t.pairs[row]);
-    const Vec3 centre = s.balls.position(s.balls.index_of_id(i));
-    const Vec3 between = s.balls.position(s.balls.index_of_id(j)) - centre;
-    columns.ball_i.push_back(i);
-    columns.ball_j.push_back(j);
+  for (const Contact& c : network.contacts) {
+    columns.ball_i.push_back(c.ball_i);
+    columns.ball_j.push_back(c.ball_j);
     columns.wall.push_back(-1);
-    columns.body_i.push_back(s.body_of_ball(i));
-    columns.body_j.push_back(s.body_of_ball(j));
-    take_contact(columns, s, row, centre, between * (1.0 / norm(between)));
+    columns.body_i.push_back(c.body_i);
+    columns.body_j.push_back(c.body_j);
+    take_contact(columns, c);
   }
-  for (std::size_t c = 0; c < t.wall_pairs.size(); ++c) {
-    const std::size_t row = t.n_pair_rows() + c;
-    if (!has_force(t.force(row))) continue;
-    const int i = first_of(t.wall_pairs[c]), wall = second_of(t.wall_pairs[c]);
-    const Vec3 centre = s.balls.position(s.balls.index_of_id(i));
-    columns.ball_i.push_back(i);
+  for (const WallContact& c : network.wall_contacts) {
+    columns.ball_i.push_back(c.ball);
     columns.ball_j.push_back(-1);
-    columns.wall.push_back(wall);
-    columns.body_i.push_back(s.body_of_ball(i));
+    columns.wall.push_back(c.wall);
+    columns.body_i.push_back(c.body);
     columns.body_j.push_back(-1);
-    take_contact(columns, s, row, centre, look_at(s.walls[static_cast<std::size_t>(wall)], centre).away * -1.0);
+    take_contact(columns, c);
   }
   return columns;
 }
@@ -131,29 +124,21 @@ void write_contacts(const Handle& frame, const Simulation& s) {
   hdf5::write_dataset(group, {"normal", "1", "unit vector from i to j or to the wall"}, c.normal, 3);
   hdf5::write_dataset(group, {"normal_force", "N", "compression positive"}, c.normal_force);
   hdf5::write_dataset(group, {"shear_force", "N", "on i, perpendicular to the normal"}, c.shear_force, 3);
+  hdf5::write_dataset(group, {"friction", "1", "friction coefficient of the contact"}, c.friction);
+  hdf5::write_dataset(group, {"is_sliding", "1", "1 when the shear force is at its Coulomb limit"}, c.is_sliding);
 }
 
 void write_bonds(const Handle& frame, const Simulation& s) {
-  std::vector<double> length, normal_force, shear_force, moment;
-  std::vector<std::uint8_t> is_broken;
-  for (int g = 0; g < s.balls.n_grains; ++g) {
-    for (int b = 0; b < k_grain_bonds; ++b) {
-      const BondReading bond = read_bond(s, g, b);
-      length.push_back(bond.length);
-      normal_force.push_back(0.0 - bond.normal_force);
-      shear_force.push_back(norm(bond.shear));
-      moment.push_back(norm(bond.moment));
-      is_broken.push_back(bond.is_broken ? 1 : 0);
-    }
-  }
+  const RubberState rubber = rubber_state_of(s);
   const Handle group = hdf5::create_group(frame, "bonds");
   hdf5::write_attribute(group, "bonds_per_grain", static_cast<std::int64_t>(k_grain_bonds));
-  hdf5::write_attribute(group, "rest_length", 2.0 * s.scene.rubber_ball_radius);
-  hdf5::write_dataset(group, {"length", "m", "distance of the two ball centres"}, length);
-  hdf5::write_dataset(group, {"normal_force", "N", "without the dashpot; compression positive"}, normal_force);
-  hdf5::write_dataset(group, {"shear_force", "N", "magnitude"}, shear_force);
-  hdf5::write_dataset(group, {"moment", "N m", "magnitude, bending and twisting"}, moment);
-  hdf5::write_dataset(group, {"is_broken", "1", "1 when broken"}, is_broken);
+  hdf5::write_attribute(group, "rest_length", rubber.rest_length);
+  hdf5::write_dataset(group, {"length", "m", "distance of the two ball centres"}, rubber.bond_length);
+  hdf5::write_dataset(group, {"normal_force", "N", "without the dashpot; compression positive"},
+                      rubber.bond_normal_force);
+  hdf5::write_dataset(group, {"shear_force", "N", "magnitude"}, rubber.bond_shear_force);
+  hdf5::write_dataset(group, {"moment", "N m", "magnitude, bending and twisting"}, rubber.bond_moment);
+  hdf5::write_dataset(group, {"is_broken", "1", "1 when broken"}, rubber.is_broken);
 }
 
 void write_walls(const Handle& frame, const Simulation& s) {

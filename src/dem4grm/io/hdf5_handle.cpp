@@ -268,17 +268,29 @@ std::vector<std::uint8_t> read_bytes(const Handle& parent, const std::string& na
   return read_values<std::uint8_t>(parent, name, H5T_NATIVE_UINT8);
 }
 
-std::string read_text(const Handle& parent, const std::string& name) {
+std::vector<std::string> read_texts(const Handle& parent, const std::string& name) {
   const std::string what = fmt::format("dataset {} cannot be read", name);
   const Handle dataset = open_dataset(parent, name);
   const Handle type(H5Dget_type(dataset.id()), H5Tclose, what);
   if (H5Tget_class(type.id()) != H5T_STRING || H5Tis_variable_str(type.id()) > 0) throw IoError(what);
   const std::vector<std::size_t> shape = dataset_shape(parent, name);
-  if (shape != std::vector<std::size_t>{1}) throw IoError(what);
-  std::string value(H5Tget_size(type.id()), '\0');
-  check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()), what);
-  value.resize(std::min(value.size(), value.find('\0')));
-  return value;
+  if (shape.size() != 1) throw IoError(what);
+  const std::size_t width = H5Tget_size(type.id());
+  std::string rows(shape[0] * width, '\0');
+  if (!rows.empty()) check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), what);
+  std::vector<std::string> texts;
+  for (std::size_t row = 0; row < shape[0]; ++row) {
+    std::string text = rows.substr(row * width, width);
+    text.resize(std::min(text.size(), text.find('\0')));
+    texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+std::string read_text(const Handle& parent, const std::string& name) {
+  std::vector<std::string> texts = read_texts(parent, name);
+  if (texts.size() != 1) throw IoError(fmt::format("dataset {} cannot be read", name));
+  return std::move(texts.front());
 }
 
 DatasetKind dataset_kind(const Handle& parent, const std::string& name) {

@@ -80,7 +80,9 @@ std::vector<std::size_t> dataset_shape(const Handle& parent, const std::string& 
 std::vector<double> read_dataset(const Handle& parent, const std::string& name);
 std::vector<std::int64_t> read_whole_numbers(const Handle& parent, const std::string& name);
 std::vector<std::uint8_t> read_bytes(const Handle& parent, const std::string& name);
-/// The first row of a dataset of texts.
+/// All rows of a dataset of texts.
+std::vector<std::string> read_texts(const Handle& parent, const std::string& name);
+/// The text in a dataset that has one row.
 std::string read_text(const Handle& parent, const std::string& name);
 
 /// What a dataset of numbers holds.

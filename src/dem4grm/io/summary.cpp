@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -110,6 +111,30 @@ JsonObject curve_of(const DirectShearCase& test, const DirectShearResult& r) {
           {"rows", static_cast<std::int64_t>(r.rows.size())}};
 }
 
+/// The recorded micro-mechanics nearest to the peak; null without any.
+JsonValue micro_at_peak(const DirectShearResult& r) {
+  const MicroRow* nearest = nullptr;
+  const auto distance = [&](const MicroRow& row) { return std::fabs(row.displacement - r.curve.displacement_at_peak); };
+  for (const MicroRow& row : r.micro_rows) {
+    if (nearest == nullptr || distance(row) < distance(*nearest)) nearest = &row;
+  }
+  if (nearest == nullptr) return {};
+  constexpr double degree = std::numbers::pi / 180.0;
+  const MicroNumbers& n = nearest->numbers;
+  const SetNumbers& all = n.of_all();
+  return JsonObject{{"displacement_mm", nearest->displacement * 1e3},
+                    {"a", all.fabric_amplitude},
+                    {"a_n", all.normal_amplitude},
+                    {"theta_n_deg", all.normal_direction / degree},
+                    {"a_t", all.shear_amplitude},
+                    {"bulk_friction", all.bulk_friction},
+                    {"strong_share_gg", n.sets[1].strong_share},
+                    {"strong_share_gr", n.sets[2].strong_share},
+                    {"strong_share_rr", n.sets[3].strong_share},
+                    {"zone", zone_name(n.zone)},
+                    {"rubber_bond_strain", n.bond_strain}};
+}
+
 JsonObject ending_of(const RunFacts& facts, const std::string& state_hash) {
   return {{"energy_closure_per_cent", facts.energy_closure},
           {"state_hash", state_hash},
@@ -139,7 +164,7 @@ JsonObject specimen_summary(const DirectShearCase& test, const DirectShearResult
 JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts) {
   JsonObject summary = beginning_of(test, result, facts);
   append(summary, curve_of(test, result));
-  append(summary, {{"hardening", result.curve.is_hardening}});
+  append(summary, {{"hardening", result.curve.is_hardening}, {"micro_at_peak", micro_at_peak(result)}});
   append(summary, ending_of(facts, result.state_hash));
   return summary;
 }

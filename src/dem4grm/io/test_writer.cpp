@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "dem4grm/io/checkpoint_file.hpp"
+#include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/io/output_file.hpp"
 #include "dem4grm/io/specimen_file.hpp"
 #include "dem4grm/version.hpp"
@@ -48,6 +49,7 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
     table_.emplace(folder.file(file_name::k_shear), shear_columns());
     store_.emplace(links.store.empty() ? folder.file(file_name::k_preparation) : links.store,
                    std::get<DirectShearCase>(loaded.test));
+    micro_table_.emplace(folder.file(file_name::k_micro), micro_columns());
   } else {
     table_.emplace(folder.file(file_name::k_grain), compression_columns());
   }
@@ -107,6 +109,7 @@ void TestWriter::resumed(const ResumedRun& past) {
   start_energy_.contact_strain = past.start_energy.contact_strain;
   start_energy_.bond_strain = past.start_energy.bond_strain;
   for (const ShearRow& row : past.rows) take_row(row);
+  for (const MicroRow& row : past.micro_rows) micro_table_->append(micro_values(row));
 }
 
 std::optional<StateArchive> TestWriter::fetch_preparation(const std::string& name) {
@@ -151,6 +154,11 @@ void TestWriter::shear_row(const ShearRow& row) {
   if (links_.listener != nullptr) links_.listener->shear_row(row);
 }
 
+void TestWriter::micro_row(const MicroRow& row) {
+  micro_table_->append(micro_values(row));
+  if (links_.listener != nullptr) links_.listener->micro_row(row);
+}
+
 void TestWriter::compression_row(const CompressionRow& row) {
   last_energy_ = row.energy;
   table_->append(compression_values(row));
@@ -179,9 +187,16 @@ RunFacts TestWriter::facts() const {
 }
 
 void TestWriter::write_tables() {
-  table_->sync();
+  sync_tables();
   // Without the file the run ended before it had anything of its own to add.
-  if (results_) results_->add_table(is_direct_shear_ ? "shear" : "compression", *table_);
+  if (!results_) return;
+  results_->add_table(is_direct_shear_ ? "shear" : "compression", *table_);
+  if (micro_table_) results_->add_table("micro", *micro_table_);
+}
+
+void TestWriter::sync_tables() {
+  table_->sync();
+  if (micro_table_) micro_table_->sync();
 }
 
 void TestWriter::write_summary(const JsonObject& summary) {
@@ -225,7 +240,7 @@ void TestWriter::give_up(RunState state, const std::string& cause) noexcept {
   attempt([&] { state == RunState::failed ? log_.error(cause) : log_.info(cause); });
   // A run that will go on adds its record at its own end.
   const bool goes_on = is_direct_shear_ && state == RunState::stopped;
-  attempt([&] { goes_on ? table_->sync() : write_tables(); });
+  attempt([&] { goes_on ? sync_tables() : write_tables(); });
   attempt([&] { status_.set_state(state, cause); });
 }
 

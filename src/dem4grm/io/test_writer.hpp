@@ -48,6 +48,7 @@ class TestWriter : public LabObserver {
   void note(const std::string& text) override;
   void warning(const std::string& text) override;
   void shear_row(const ShearRow& row) override;
+  void micro_row(const MicroRow& row) override;
   void compression_row(const CompressionRow& row) override;
   void frame(const Simulation& state, const FrameInfo& info) override;
   bool wants_checkpoint(bool is_new_stage) override;
@@ -73,6 +74,7 @@ class TestWriter : public LabObserver {
   ResultsFile& results();
   void take_row(const ShearRow& row);
   void write_tables();
+  void sync_tables();
   void write_summary(const JsonObject& summary);
 
   const OutputFolder& folder_;
@@ -84,7 +86,8 @@ class TestWriter : public LabObserver {
   StatusFile status_;
   RemainingTime remaining_;
   std::optional<ResultsFile> results_;
-  std::optional<TableFile> table_;  ///< shear.csv or grain.csv
+  std::optional<TableFile> table_;        ///< shear.csv or grain.csv
+  std::optional<TableFile> micro_table_;  ///< micro.csv, of a direct shear test
   std::optional<PreparationStore> store_;
   bool is_direct_shear_;
   bool has_shear_begun_ = false;

@@ -24,6 +24,7 @@ struct RecordingSettings {
   double interval = 1e-5;                    ///< m of displacement over which a row of shear.csv is averaged
   double frame_interval = 2e-3;              ///< m of displacement between full states
   std::vector<double> extra_frames{0.2e-3};  ///< m, further full states
+  double micro_interval = 0.2e-3;            ///< m of displacement between rows of micro.csv
 };
 
 /// A direct shear test from grading to curves.

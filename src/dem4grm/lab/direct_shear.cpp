@@ -37,16 +37,28 @@ SpecimenOrder specimen_order(const DirectShearCase& test) {
           test.seed};
 }
 
-std::vector<double> state_displacements(const DirectShearCase& test) {
-  std::vector<double> at = test.recording.extra_frames;
-  const double every = test.recording.frame_interval, end = test.shear.displacement;
-  for (int k = 0; k * every < end; ++k) at.push_back(k * every);
-  at.push_back(end);
-  std::sort(at.begin(), at.end());
+namespace {
+
+/// The start, every `every`, the end, and `more`; ascending, each once.
+std::vector<double> marks(const DirectShearCase& test, double every, std::vector<double> more) {
+  const double end = test.shear.displacement;
+  for (int k = 0; k * every < end; ++k) more.push_back(k * every);
+  more.push_back(end);
+  std::sort(more.begin(), more.end());
   const double near = 0.5 * test.recording.interval;
-  at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a < near; }), at.end());
-  std::erase_if(at, [&](double d) { return d > end + near; });
-  return at;
+  more.erase(std::unique(more.begin(), more.end(), [&](double a, double b) { return b - a < near; }), more.end());
+  std::erase_if(more, [&](double d) { return d > end + near; });
+  return more;
+}
+
+}  // namespace
+
+std::vector<double> state_displacements(const DirectShearCase& test) {
+  return marks(test, test.recording.frame_interval, test.recording.extra_frames);
+}
+
+std::vector<double> micro_displacements(const DirectShearCase& test) {
+  return marks(test, test.recording.micro_interval, {});
 }
 
 namespace {
@@ -70,7 +82,8 @@ class ShearStage {
         specimen_(specimen),
         s_(*specimen.simulation),
         observer_(observer),
-        frames_(state_displacements(test)) {
+        frames_(state_displacements(test)),
+        micro_(micro_displacements(test)) {
     s_.servo.speed_cap = std::max(test.servo.shear_speed_cap, test.shear.velocity);
     start_height_ = plate_height();
     start_energy_ = s_.energy();
@@ -81,10 +94,11 @@ class ShearStage {
     if (from == nullptr) {
       write_frame();
       tell_specimen();
+      record_micro();
       keep(true);
     } else {
       from->group("shear", [&] { exchange_all(*from); });
-      observer_.resumed({rows_, written_frames_, start_energy_});
+      observer_.resumed({rows_, written_frames_, micro_rows_, start_energy_});
     }
     if (!observer_.wants_shear()) return;
     while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
@@ -93,20 +107,25 @@ class ShearStage {
       if (is_watched) watch();
       if (displacement_ >= next_row_at() * (1.0 - 1e-12)) {
         finish_row();
-        if (next_frame_ < frames_.size() && displacement_ >= frames_[next_frame_] - 0.5 * test_.recording.interval) {
-          write_frame();
-        }
+        if (has_reached(frames_, next_frame_)) write_frame();
+        if (has_reached(micro_, micro_rows_.size())) record_micro();
       }
       if (is_watched) keep(false);
     }
   }
 
   [[nodiscard]] const std::vector<ShearRow>& rows() const { return rows_; }
+  [[nodiscard]] const std::vector<MicroRow>& micro_rows() const { return micro_rows_; }
 
  private:
   [[nodiscard]] double plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
   [[nodiscard]] double next_row_at() const {
     return std::min(static_cast<double>(rows_.size() + 1) * test_.recording.interval, test_.shear.displacement);
+  }
+
+  /// True when the mark of that number is there and near.
+  [[nodiscard]] bool has_reached(const std::vector<double>& at, std::size_t number) const {
+    return number < at.size() && displacement_ >= at[number] - 0.5 * test_.recording.interval;
   }
 
   void advance() {
@@ -196,6 +215,11 @@ class ShearStage {
     ++next_frame_;
   }
 
+  void record_micro() {
+    micro_rows_.push_back({displacement_, analyse(micro_state_of(s_), {}).numbers});
+    observer_.micro_row(micro_rows_.back());
+  }
+
   StateArchive specimen_state() {
     StateArchive archive;
     std::string stage = "shear";
@@ -229,13 +253,14 @@ class ShearStage {
     exchange(archive, written_frames_);
     next_frame_ = written_frames_.size();
     exchange(archive, rows_);
+    exchange(archive, micro_rows_);
   }
 
   const DirectShearCase& test_;
   Specimen& specimen_;
   Simulation& s_;
   LabObserver& observer_;
-  std::vector<double> frames_;
+  std::vector<double> frames_, micro_;  ///< m, where states and micro-mechanics are recorded
   double displacement_ = 0.0, start_height_ = 0.0;
   EnergyReport start_energy_;
   std::size_t next_frame_ = 0;
@@ -243,6 +268,7 @@ class ShearStage {
   std::int64_t shear_steps_ = 0;
   IntervalSums sums_;
   std::vector<ShearRow> rows_;
+  std::vector<MicroRow> micro_rows_;
 };
 
 int count_broken_bonds(const Simulation& s) {
@@ -327,6 +353,7 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
   DirectShearResult out;
   out.specimen = specimen.report;
   out.rows = stage.rows();
+  out.micro_rows = stage.micro_rows();
   out.displacement = out.rows.empty() ? 0.0 : out.rows.back().displacement;
   out.curve = read_shear_curve(out.rows);
   summarise(test, specimen, out);

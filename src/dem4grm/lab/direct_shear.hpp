@@ -16,6 +16,7 @@ struct DirectShearResult {
   SpecimenReport specimen;
   ShearCurve curve;
   std::vector<ShearRow> rows;
+  std::vector<MicroRow> micro_rows;
   double displacement = 0.0;
   double normal_stress_mean = 0.0;         ///< Pa, over the shear stage
   double normal_stress_max_error = 0.0;    ///< largest relative error of a row
@@ -36,6 +37,9 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
 
 /// Displacements at which full states are recorded, m, ascending: the start, the extra ones, every frame_interval, the end.
 std::vector<double> state_displacements(const DirectShearCase& test);
+
+/// Displacements at which the micro-mechanics is recorded, m, ascending: the start, every micro_interval, the end.
+std::vector<double> micro_displacements(const DirectShearCase& test);
 
 /// The scene of a case without grains and walls.
 Scene materials_of(const DirectShearCase& test);

@@ -9,6 +9,7 @@
 
 #include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/engine/simulation.hpp"
+#include "dem4grm/micro/analysis.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
@@ -56,6 +57,13 @@ struct CompressionRow {
   EnergyReport energy;
 };
 
+/// The micro-mechanics at a displacement, with the default options of an analysis. Doubles only: a checkpoint holds the rows
+/// as they lie in memory.
+struct MicroRow {
+  double displacement = 0.0;  ///< m
+  MicroNumbers numbers;
+};
+
 /// A full state at a displacement.
 struct FrameInfo {
   int number = 0;
@@ -67,6 +75,7 @@ struct FrameInfo {
 struct ResumedRun {
   std::span<const ShearRow> rows;
   std::span<const FrameInfo> frames;
+  std::span<const MicroRow> micro_rows;
   EnergyReport start_energy;  ///< J, when shear began
 };
 
@@ -82,6 +91,7 @@ class LabObserver {
   virtual void warning(const std::string& /*text*/) {}
   virtual void shear_row(const ShearRow& /*row*/) {}
   virtual void compression_row(const CompressionRow& /*row*/) {}
+  virtual void micro_row(const MicroRow& /*row*/) {}
   virtual void frame(const Simulation& /*state*/, const FrameInfo& /*info*/) {}
 
   /// Asked at every point from which a test could go on; is_new_stage: a stage has just ended.

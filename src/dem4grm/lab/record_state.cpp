@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/lab/record_state.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 #include <tuple>
+#include <type_traits>
 
 #include "dem4grm/core/error.hpp"
 
@@ -62,6 +65,27 @@ void exchange(StateArchive& archive, std::vector<ShearRow>& rows) {
     throw IoError("the saved rows of the record have another length than those of this build");
   rows.resize(numbers.size() / n);
   for (std::size_t k = 0; k < rows.size() * n; ++k) *numbers_of(rows[k / n])[k % n] = numbers[k];
+}
+
+void exchange(StateArchive& archive, std::vector<MicroRow>& rows) {
+  static_assert(std::is_trivially_copyable_v<MicroRow> && sizeof(MicroRow) % sizeof(double) == 0,
+                "a row of micro.csv holds doubles only");
+  constexpr std::size_t n = sizeof(MicroRow) / sizeof(double);
+  using Numbers = std::array<double, n>;
+  std::vector<double> numbers;
+  for (const MicroRow& row : rows) {
+    const auto of_row = std::bit_cast<Numbers>(row);
+    numbers.insert(numbers.end(), of_row.begin(), of_row.end());
+  }
+  archive.exchange("micro_rows", numbers);
+  if (numbers.size() % n != 0)
+    throw IoError("the saved rows of micro.csv have another length than those of this build");
+  rows.resize(numbers.size() / n);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    Numbers of_row{};
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(k * n), n, of_row.begin());
+    rows[k] = std::bit_cast<MicroRow>(of_row);
+  }
 }
 
 }  // namespace dem

@@ -12,5 +12,6 @@ namespace dem {
 /// Saves or loads lists of any length. Loading throws IoError when the archive does not hold them.
 void exchange(StateArchive& archive, std::vector<FrameInfo>& frames);
 void exchange(StateArchive& archive, std::vector<ShearRow>& rows);
+void exchange(StateArchive& archive, std::vector<MicroRow>& rows);
 
 }  // namespace dem

@@ -122,6 +122,16 @@ TEST(CaseErrors, RangesAndFractions) {
             "2:17: error: specimen.gravel_clumps = 0 does not go with rubber_content = 0.25");
 }
 
+TEST(CaseErrors, NothingIsRecordedMoreOftenThanTheRows) {
+  for (const char* key : {"frame_interval", "micro_interval"}) {
+    const std::string recording = "[recording]\ninterval = \"0.05 mm\"\n" + std::string(key) + " = \"0.02 mm\"\n";
+    const std::vector<std::string> lines = headlines(refusal(with("", "") + recording));
+    ASSERT_FALSE(lines.empty()) << key;
+    EXPECT_EQ(lines[0].substr(lines[0].find("error")),
+              "error: recording." + std::string(key) + " = 0.02 mm is shorter than recording.interval = 0.05 mm");
+  }
+}
+
 TEST(CaseErrors, WrongKinds) {
   EXPECT_EQ(mistake("rubber.bond", "linear_spring = \"yes\""),
             "9:17: error: rubber.bond.linear_spring = \"yes\" must be true or false, without quotes");

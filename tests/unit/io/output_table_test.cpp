@@ -2,11 +2,14 @@
 // CSV tables, status.json and the forecast of the end.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "dem4grm/io/json_text.hpp"
+#include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/io/remaining_time.hpp"
 #include "dem4grm/io/status_file.hpp"
 #include "dem4grm/io/table_file.hpp"
@@ -48,7 +51,7 @@ TEST(Table, HeaderOfShearBeginsAsPromised) {
 }
 
 TEST(Table, EveryColumnHasUnitInNameAndDescription) {
-  for (const auto columns : {shear_columns(), compression_columns()}) {
+  for (const auto columns : {shear_columns(), compression_columns(), micro_columns()}) {
     for (const ColumnInfo& column : columns) {
       EXPECT_FALSE(column.description.empty()) << column.name;
       if (column.unit != "1") {
@@ -58,6 +61,32 @@ TEST(Table, EveryColumnHasUnitInNameAndDescription) {
   }
   EXPECT_EQ(shear_columns().size(), shear_values({}, 0.0).size());
   EXPECT_EQ(compression_columns().size(), compression_values({}).size());
+  EXPECT_EQ(micro_columns().size(), micro_values({}).size());
+}
+
+TEST(Table, MicroMechanicsHasUniqueNamesAndTheUnitsOfTheHeader) {
+  std::vector<std::string_view> names;
+  for (const ColumnInfo& column : micro_columns()) names.push_back(column.name);
+  EXPECT_EQ(names.front(), "displacement_mm");
+  MicroRow row;
+  row.displacement = 8e-3;
+  row.numbers.sets[0].normal_direction = std::numbers::pi / 3;
+  row.numbers.sets[3].strong_share = 0.25;
+  row.numbers.stress_zz = 1e5;
+  row.numbers.bond_strain = std::numeric_limits<double>::quiet_NaN() * -1.0;
+  const std::vector<double> values = micro_values(row);
+  const auto value = [&](std::string_view name) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    return values.at(static_cast<std::size_t>(at));
+  };
+  EXPECT_EQ(value("displacement_mm"), 8.0);
+  EXPECT_NEAR(value("theta_n_all_deg"), 60.0, 1e-12);
+  EXPECT_EQ(value("strong_share_rr"), 0.25);
+  EXPECT_EQ(value("stress_zz_kPa"), 100.0);
+  EXPECT_TRUE(std::isnan(value("bond_strain")));
+  EXPECT_FALSE(std::signbit(value("bond_strain"))) << "else it would be printed as -nan";
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
 }
 
 TEST(Table, RowsAreInTheFileAtOnceInShortestNumbers) {
