@@ -34,7 +34,7 @@ struct MicroVerbOptions {
 std::filesystem::path results_of(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_directory(path, error)) return path;
-  const std::filesystem::path results = path / file_name::k_results;
+  std::filesystem::path results = path / file_name::k_results;
   if (!std::filesystem::exists(results, error)) {
     throw MissingFileError(fmt::format("{}: has no {}, so no state to look at", path.string(), file_name::k_results));
   }

@@ -52,6 +52,7 @@ struct Stop {};
 using MicroBits = std::array<std::uint64_t, sizeof(MicroRow) / sizeof(std::uint64_t)>;
 std::vector<MicroBits> bits_of(const std::vector<MicroRow>& rows) {
   std::vector<MicroBits> bits;
+  bits.reserve(rows.size());
   for (const MicroRow& row : rows) bits.push_back(std::bit_cast<MicroBits>(row));
   return bits;
 }

@@ -71,9 +71,9 @@ TEST_F(MicroStateFile, GivesTheBitsOfTheSimulation) {
 TEST_F(MicroStateFile, SaysWhichStatesThereAre) {
   expect_error(path_, 1e-3, ExitCode::missing_file, "no state at 1 mm; there are states at 0, 2 mm");
   expect_error(folder_ / "absent.h5", 1e-3, ExitCode::missing_file, "absent.h5");
-  ResultsFile(folder_ / "empty.h5", k_origin);
+  const ResultsFile empty(folder_ / "empty.h5", k_origin);
   expect_error(folder_ / "empty.h5", std::nullopt, ExitCode::missing_file, "no state yet");
-  ResultsFile(folder_ / "grain.h5", {"grain_compression", "grain", "", ""});
+  const ResultsFile grain(folder_ / "grain.h5", {"grain_compression", "grain", "", ""});
   expect_error(folder_ / "grain.h5", std::nullopt, ExitCode::io, "needs a direct shear test");
 }
 

@@ -251,6 +251,24 @@ TEST(ZoneLabels, MajorityAndItsMargin) {
   EXPECT_EQ(zone_of(strong).margin, 0.0);
 }
 
+TEST(EmptyNetwork, HasNoValuesAndDoesNoHarm) {
+  MicroState state;
+  const MicroNumbers nothing = analyse(state, {.resamples = 2}).numbers;
+  EXPECT_EQ(nothing.of_all().contacts, 0.0);
+  EXPECT_EQ(nothing.of_all().empty_bins, 18.0);
+  for (const double v : {nothing.of_all().fabric_amplitude, nothing.of_all().normal_amplitude, nothing.stress_zz,
+                         nothing.strong_fraction, nothing.coordination, nothing.bond_strain}) {
+    EXPECT_TRUE(std::isnan(v));
+  }
+  // Contacts without any tangential force: no direction of it.
+  state = ten_contacts();
+  for (Contact& c : state.network.contacts) c.shear_force = {};
+  const MicroNumbers frictionless = analyse(state, {.bins = 18}).numbers;
+  EXPECT_TRUE(std::isnan(frictionless.of_all().shear_amplitude));
+  EXPECT_EQ(frictionless.of_all().bulk_friction, 0.0);
+  EXPECT_NEAR(frictionless.of_all().normal_direction, 10 * k_degree, k_tight);
+}
+
 TEST(MicroOptionsCheck, NamesWhatIsWrong) {
   EXPECT_EQ(problem_of({}), "");
   for (const int bins : {16, 35, 722}) EXPECT_NE(problem_of({.bins = bins}), "") << bins;

@@ -20,6 +20,7 @@ constexpr double k_a = k_grain_lattice * k_radius;
 template <class Map>
 std::vector<Vec3> grain_after(const Map& map) {
   std::vector<Vec3> balls;
+  balls.reserve(k_grain_balls);
   for (int slot = 0; slot < k_grain_balls; ++slot) balls.push_back(map(grain_site(slot) * k_a));
   return balls;
 }
