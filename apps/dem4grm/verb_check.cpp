@@ -35,6 +35,11 @@ std::string facts_text(const CaseFacts& f, std::size_t warnings) {
     text += fmt::format("  {:<18} {}\n", name, value);
   };
   line("grains", fmt::format("{} gravel clumps, {} rubber grains", f.clumps, f.rubber_grains));
+  std::string shapes;
+  for (const ShapeFacts& s : f.shapes) {
+    if (s.grains > 0) shapes += fmt::format("{}{} {:.1f} %", shapes.empty() ? "" : ", ", s.name, 100.0 * s.share);
+  }
+  if (!shapes.empty()) line("gravel shapes", shapes + " of its volume");
   line("balls", fmt::format("{}, with {} bonds", f.balls, f.bonds));
   line("time step", fmt::format("{:.3e} s{}, limited by: {}", f.time_step,
                                 f.test == "direct_shear" ? " until shear" : "", f.time_step_limited_by));

@@ -24,8 +24,9 @@ bool hang_together(const Pebble& a, const Pebble& b) {
   return norm(a.position - b.position) <= (a.radius + b.radius) * (1.0 + k_touching);
 }
 
-/// True when every pebble can be reached from the first over pebbles that touch or overlap.
-bool are_connected(const std::vector<Pebble>& pebbles) {
+/// Index of the first pebble that cannot be reached from pebble 0 over pebbles that touch or overlap; their number when
+/// all can.
+std::size_t first_apart(std::span<const Pebble> pebbles) {
   std::vector<std::size_t> reached{0};
   std::vector<bool> is_reached(pebbles.size(), false);
   is_reached[0] = true;
@@ -36,26 +37,34 @@ bool are_connected(const std::vector<Pebble>& pebbles) {
       reached.push_back(i);
     }
   }
-  return reached.size() == pebbles.size();
+  return static_cast<std::size_t>(std::find(is_reached.begin(), is_reached.end(), false) - is_reached.begin());
 }
 
-/// What is wrong with single pebbles; "" when nothing. Pebbles are counted from 1, as in a case file.
-std::string bad_numbers(const std::vector<Pebble>& pebbles) {
-  std::string problems;
+/// What is wrong with single pebbles.
+std::vector<PebbleFault> bad_numbers(std::span<const Pebble> pebbles) {
+  using Part = PebbleFault::Part;
+  std::vector<PebbleFault> faults;
   for (std::size_t i = 0; i < pebbles.size(); ++i) {
     const double radius = pebbles[i].radius;
     if (!(std::isfinite(radius) && radius > 0.0)) {
-      problems += fmt::format("; pebble {} has radius {}, which must be positive and finite", i + 1, radius);
+      faults.push_back(
+          {i, Part::radius, fmt::format("pebble {} has radius {}, which must be positive and finite", i + 1, radius)});
     }
-    if (!is_finite(pebbles[i].position)) problems += fmt::format("; pebble {} has a position that is no number", i + 1);
+    if (!is_finite(pebbles[i].position)) {
+      faults.push_back({i, Part::position, fmt::format("pebble {} has a position that is no number", i + 1)});
+    }
   }
-  return problems;
+  return faults;
 }
 
-/// What is wrong with how the pebbles lie to each other; "" when nothing.
-std::string bad_arrangement(const std::vector<Pebble>& pebbles) {
-  std::string problems;
-  if (!are_connected(pebbles)) problems += "; the pebbles do not hang together";
+/// What is wrong with how the pebbles lie to each other.
+std::vector<PebbleFault> bad_arrangement(std::span<const Pebble> pebbles) {
+  using Part = PebbleFault::Part;
+  std::vector<PebbleFault> faults;
+  if (const std::size_t apart = first_apart(pebbles); apart < pebbles.size()) {
+    faults.push_back({apart, Part::pebble,
+                      fmt::format("the pebbles do not hang together: nothing joins pebble {} to pebble 1", apart + 1)});
+  }
   for (std::size_t i = 0; i < pebbles.size(); ++i) {
     for (std::size_t j = 0; j < pebbles.size(); ++j) {
       const double distance = norm(pebbles[i].position - pebbles[j].position);
@@ -63,16 +72,19 @@ std::string bad_arrangement(const std::vector<Pebble>& pebbles) {
       const bool is_inside = distance + pebbles[i].radius <= pebbles[j].radius;
       const bool is_twin = distance == 0.0 && pebbles[i].radius == pebbles[j].radius;
       if (i != j && is_inside && !(is_twin && i < j)) {
-        problems += fmt::format("; pebble {} lies inside pebble {} and can be left out", i + 1, j + 1);
+        faults.push_back(
+            {i, Part::pebble, fmt::format("pebble {} lies inside pebble {} and can be left out", i + 1, j + 1)});
       }
     }
   }
-  return problems;
+  return faults;
 }
 
 void check_pebbles(const std::string& name, const std::vector<Pebble>& pebbles) {
-  std::string problems = pebbles.empty() ? "; it has no pebbles" : bad_numbers(pebbles);
-  if (problems.empty()) problems = bad_arrangement(pebbles);
+  std::string problems = pebbles.empty() ? "; it has no pebbles" : "";
+  if (!pebbles.empty()) {
+    for (const PebbleFault& fault : pebble_faults(pebbles)) problems += "; " + fault.message;
+  }
   if (!problems.empty()) throw InputError(fmt::format("clump shape '{}': {}", name, problems.substr(2)));
 }
 
@@ -100,6 +112,11 @@ std::vector<ClumpTemplate> make_shipped_templates() {
 }
 
 }  // namespace
+
+std::vector<PebbleFault> pebble_faults(std::span<const Pebble> pebbles) {
+  std::vector<PebbleFault> faults = bad_numbers(pebbles);
+  return faults.empty() ? bad_arrangement(pebbles) : faults;
+}
 
 ClumpTemplate make_clump_template(std::string name, std::vector<Pebble> pebbles) {
   check_pebbles(name, pebbles);

@@ -2,6 +2,8 @@
 // Shapes of gravel grains: a few overlapping pebbles, with the mass properties of their union.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,6 +28,18 @@ struct ClumpTemplate {
   Vec3 moment_of_inertia;        ///< principal moments of the union at unit density
   double bounding_radius = 0.0;  ///< of the sphere about the centroid that holds all pebbles
 };
+
+/// One thing that is wrong with the pebbles of a shape.
+struct PebbleFault {
+  enum class Part : std::uint8_t { radius, position, pebble };
+  std::size_t pebble = 0;  ///< index of the pebble that the message is about
+  Part part = Part::pebble;
+  std::string message;  ///< counts pebbles from 1, as people do
+};
+
+/// Everything that keeps pebbles (any frame and unit, at least one) from being a shape: numbers that are none, radii
+/// that are not positive; when there is nothing of that kind, pebbles that do not hang together or lie inside another.
+std::vector<PebbleFault> pebble_faults(std::span<const Pebble> pebbles);
 
 /// Builds a template from pebbles in any frame and unit. Throws InputError for no pebbles, a radius that is not
 /// positive, or pebbles that do not hang together.

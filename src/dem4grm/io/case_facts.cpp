@@ -42,11 +42,17 @@ Scene limiting_grains(Scene scene, const GrainList& grains) {
 void describe_grains(const DirectShearCase& test, const GrainList& grains, CaseFacts& facts) {
   int pebbles = 0;
   double size_times_volume = 0.0;
+  for (const ClumpTemplate& shape : grains.shapes) {
+    facts.shapes.push_back({shape.name, static_cast<int>(shape.pebbles.size()), 0, 0.0});
+  }
   for (const GravelGrain& grain : grains.gravel) {
     const ClumpTemplate& shape = grains.shapes[static_cast<std::size_t>(grain.shape)];
     const double d = grain.sieve_size;
     pebbles += static_cast<int>(shape.pebbles.size());
     size_times_volume += shape.volume * d * d * d * d;
+    ShapeFacts& of_shape = facts.shapes[static_cast<std::size_t>(grain.shape)];
+    ++of_shape.grains;
+    of_shape.share += shape.volume * d * d * d / grains.gravel_volume;
   }
   const double total = grains.solid_volume();
   if (grains.rubber_count > 0) {
@@ -120,6 +126,13 @@ JsonObject facts_as_json(const CaseFacts& f) {
                  {"rows", f.rows},
                  {"memory_MB", f.memory / 1e6}};
   if (f.test != "direct_shear") return out;
+  JsonList shapes;
+  for (const ShapeFacts& s : f.shapes) {
+    if (s.grains == 0) continue;
+    shapes.emplace_back(
+        JsonObject{{"shape", s.name}, {"pebbles", s.pebbles}, {"grains", s.grains}, {"share_of_gravel", s.share}});
+  }
+  out.push_back({"clump_shapes", shapes});
   for (JsonField& field : JsonObject{{"rubber_content", f.rubber_content},
                                      {"expected_void_ratio", f.expected_void_ratio},
                                      {"generation_void_ratio", f.generation_void_ratio},

@@ -4,11 +4,20 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "dem4grm/io/case_file.hpp"
 #include "dem4grm/io/json_text.hpp"
 
 namespace dem {
+
+/// What one clump shape contributes to the gravel.
+struct ShapeFacts {
+  std::string name;
+  int pebbles = 0;     ///< of one grain
+  int grains = 0;      ///< of that shape
+  double share = 0.0;  ///< of the volume of the gravel
+};
 
 /// Derived values, SI units. Of a grain compression only the first group is filled.
 struct CaseFacts {
@@ -20,10 +29,11 @@ struct CaseFacts {
   int rows = 0;            ///< of the record
   double memory = 0.0;     ///< bytes, estimated
 
-  double rubber_content = 0.0;   ///< that whole grains give
-  double inertial_number = 0.0;  ///< of the shear stage
-  double mean_size = 0.0;        ///< m, volume-weighted
-  double mean_density = 0.0;     ///< kg/m3, volume-weighted, of the solids
+  std::vector<ShapeFacts> shapes;  ///< of the gravel
+  double rubber_content = 0.0;     ///< that whole grains give
+  double inertial_number = 0.0;    ///< of the shear stage
+  double mean_size = 0.0;          ///< m, volume-weighted
+  double mean_density = 0.0;       ///< kg/m3, volume-weighted, of the solids
   double expected_void_ratio = 0.0;
   double generation_void_ratio = 0.0;
 };

@@ -48,12 +48,14 @@ TomlNode plain_node(std::string_view text) {
   return node;
 }
 
-TomlNode list_node(std::string_view text) {
+TomlNode list_node(const Key& key, std::string_view text) {
+  const bool is_of_numbers = std::holds_alternative<std::vector<double>*>(key.slot) && !key.has_unit();
   TomlNode list;
   list.kind = TomlKind::array;
   while (!trimmed(text).empty()) {
     const std::size_t comma = text.find(',');
-    list.items.push_back(text_node(text.substr(0, comma)));
+    const std::string_view item = text.substr(0, comma);
+    list.items.push_back(is_of_numbers ? plain_node(item) : text_node(item));
     text = comma == std::string_view::npos ? std::string_view() : text.substr(comma + 1);
   }
   return list;
@@ -76,11 +78,12 @@ void move_to(TomlNode& node, const Place& place) {
 }
 
 TomlNode node_for(const Key& key, std::string_view text) {
-  const bool is_list = std::holds_alternative<std::vector<std::string>*>(key.slot) ||
-                       std::holds_alternative<std::vector<double>*>(key.slot);
-  const bool is_grading = std::holds_alternative<GradingSlot>(key.slot);
-  if ((is_list || is_grading) && trimmed(text).starts_with('[')) return bracketed_node(text);
-  if (is_list) return list_node(text);
+  const bool is_list =
+      std::holds_alternative<ShapeNamesSlot>(key.slot) || std::holds_alternative<std::vector<double>*>(key.slot);
+  const bool is_table =
+      std::holds_alternative<GradingSlot>(key.slot) || std::holds_alternative<ClumpTemplatesSlot>(key.slot);
+  if ((is_list || is_table) && trimmed(text).starts_with('[')) return bracketed_node(text);
+  if (is_list) return list_node(key, text);
   const bool is_plain =
       std::holds_alternative<int*>(key.slot) || std::holds_alternative<std::optional<int>*>(key.slot) ||
       std::holds_alternative<std::uint64_t*>(key.slot) || std::holds_alternative<bool*>(key.slot) ||

@@ -49,6 +49,36 @@ void check_materials(const SpecimenSettings& specimen, Rules& rules) {
   check_count("specimen.rubber_grains", specimen.rubber_grains, has_rubber(specimen));
 }
 
+/// Shapes and their shares belong together, and shapes that are written down are meant to be used.
+void check_shapes(const SpecimenSettings& specimen, Rules& rules) {
+  const auto& [given, problems] = rules;
+  constexpr double k_rounding = 0.0101;  // shares such as 0.33, 0.33, 0.33 are meant to be everything
+  if (!given.are_good({"specimen.clump_templates", "specimen.clump_shapes"})) return;
+  const auto is_used = [&](const ClumpShape& own) {
+    const auto& names = specimen.clump_shapes;
+    return std::find(names.begin(), names.end(), own.name) != names.end();
+  };
+  const auto& own = specimen.clump_templates;
+  if (!own.empty() && std::none_of(own.begin(), own.end(), is_used)) {
+    problems.warning(given.place_of({"specimen.clump_templates"}),
+                     "specimen.clump_shapes names none of the shapes of specimen.clump_templates",
+                     fmt::format("as clump_shapes = [\"{}\"]", own.front().name));
+  }
+  if (!given.has("specimen.clump_shares") || !given.are_good({"specimen.clump_shares"})) return;
+  const Place place = given.place_of({"specimen.clump_shares"});
+  const std::size_t shapes = specimen.clump_shapes.size(), shares = specimen.clump_shares.size();
+  if (shapes != shares) {
+    problems.error(place, fmt::format("specimen.clump_shares gives {} share(s) for {} clump_shapes", shares, shapes));
+    return;
+  }
+  double sum = 0.0;
+  for (const double share : specimen.clump_shares) sum += share;
+  if (std::abs(sum - 1.0) > k_rounding) {
+    problems.error(place, fmt::format("specimen.clump_shares add up to {}, not to 1", format_decimal(sum)),
+                   "fractions of the volume of the gravel");
+  }
+}
+
 /// The grains that the box must hold. Zero when there is none or when its grading is wrong.
 struct GrainSizes {
   double largest = 0.0;
@@ -240,6 +270,7 @@ void check_rules(const DirectShearCase& test, const GivenKeys& given, CaseProble
   Rules rules{given, problems};
   check_materials(test.specimen, rules);
   check_preparation(test, rules);
+  check_shapes(test.specimen, rules);
   check_box_against_grains(test, rules);
   check_box(test, rules);
   check_recording(test, rules);

@@ -32,11 +32,23 @@ struct GradingSlot {
   std::string* file = nullptr;
 };
 
+/// Clump shapes of the user and the name of the file that they came from.
+struct ClumpTemplatesSlot {
+  std::vector<ClumpShape>* shapes = nullptr;
+  std::string* file = nullptr;
+};
+
+/// Names among the choices of the key and the shapes of the user, which have been read before.
+struct ShapeNamesSlot {
+  std::vector<std::string>* names = nullptr;
+  const SpecimenSettings* specimen = nullptr;
+};
+
 /// Where the value of a key lives inside a case; the alternative also says what kind of value it is. The choices of an
 /// enumeration are named by Key::choices in the order of its enumerators.
 using Slot = std::variant<TestName, double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*, bool*,
-                          std::string*, std::vector<std::string>*, std::vector<double>*, GradingSlot, BondForm*,
-                          TimeStepRule*, MovingHalf*>;
+                          std::string*, std::vector<double>*, GradingSlot, ClumpTemplatesSlot, ShapeNamesSlot,
+                          BondForm*, TimeStepRule*, MovingHalf*>;
 
 struct Key {
   std::string_view section{};  ///< "rubber.bond"; empty for the keys before the first section

@@ -31,6 +31,17 @@ std::string grading_text(const Grading& grading) {
   return text + "\n]";
 }
 
+std::string pebbles_text(const std::vector<ClumpShape>& shapes) {
+  std::string text = "[";
+  for (const ClumpShape& shape : shapes) {
+    for (const Pebble& p : shape.pebbles) {
+      text += fmt::format("\n  [{}, {}, {}, {}, {}],", quoted(shape.name), toml_number(p.position.x),
+                          toml_number(p.position.y), toml_number(p.position.z), toml_number(p.radius));
+    }
+  }
+  return text + "\n]";
+}
+
 /// The value of a slot as TOML text.
 struct ValueText {
   const Key& key;
@@ -49,12 +60,13 @@ struct ValueText {
   std::optional<std::string> operator()(const std::uint64_t* value) const { return fmt::format("{}", *value); }
   std::optional<std::string> operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::optional<std::string> operator()(const std::string* value) const { return quoted(*value); }
-  std::optional<std::string> operator()(const std::vector<std::string>* value) const {
+  std::optional<std::string> operator()(const ShapeNamesSlot& slot) const {
     std::vector<std::string> items;
-    for (const std::string& item : *value) items.push_back(quoted(item));
+    for (const std::string& item : *slot.names) items.push_back(quoted(item));
     return listed(items);
   }
   std::optional<std::string> operator()(const std::vector<double>* value) const {
+    if (value->empty() && !key.default_words.empty()) return std::nullopt;
     std::vector<std::string> items;
     for (const double item : *value) items.push_back(number_or_quantity(item, key.dimension));
     return listed(items);
@@ -62,6 +74,10 @@ struct ValueText {
   std::optional<std::string> operator()(const GradingSlot& slot) const {
     if (slot.points->empty()) return std::nullopt;
     return grading_text(*slot.points);
+  }
+  std::optional<std::string> operator()(const ClumpTemplatesSlot& slot) const {
+    if (slot.shapes->empty()) return std::nullopt;
+    return pebbles_text(*slot.shapes);
   }
   template <class Enumeration>
   requires std::is_enum_v<Enumeration> std::optional<std::string>

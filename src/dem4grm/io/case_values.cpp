@@ -3,6 +3,7 @@
 #include "dem4grm/io/case_values.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -10,6 +11,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/io/case_scalars.hpp"
+#include "dem4grm/io/clump_file.hpp"
 #include "dem4grm/io/grading_file.hpp"
 
 namespace dem {
@@ -43,27 +45,33 @@ class ValueReader {
     return true;
   }
 
-  bool operator()(std::vector<std::string>* slot) {
+  bool operator()(const ShapeNamesSlot& slot) {
     if (!is_list()) return scalar_.wrong_kind(node_, "must be a list of names, as [\"T1\", \"T2\"]");
     if (node_.items.empty()) return scalar_.fail(node_, "is empty; name at least one");
+    Key with_own = key_;
+    for (const ClumpShape& shape : slot.specimen->clump_templates) with_own.choices.emplace_back(shape.name);
+    // A file of shapes that could not be read has its message; nobody knows which names it would have held.
+    const bool is_checked = slot.specimen->clump_templates_file.empty() || !slot.specimen->clump_templates.empty();
     std::vector<std::string> names;
     bool is_good = true;
     for (const TomlNode& item : node_.items) {
-      const std::optional<std::size_t> index = scalar_.choice(item);
-      if (!index) {
+      if (is_checked ? !ScalarReader(with_own, problems_).choice(item) : !scalar_.is_sound_text(item)) {
         is_good = false;
-      } else if (std::find(names.begin(), names.end(), key_.choices[*index]) != names.end()) {
+      } else if (std::find(names.begin(), names.end(), item.text) != names.end()) {
         is_good = scalar_.fail(item, "is listed twice");
       } else {
-        names.emplace_back(key_.choices[*index]);
+        names.push_back(item.text);
       }
     }
-    *slot = std::move(names);
+    *slot.names = std::move(names);
     return is_good;
   }
 
   bool operator()(std::vector<double>* slot) {
-    if (!is_list()) return scalar_.wrong_kind(node_, "must be a list, as [\"0.2 mm\", \"8 mm\"]");
+    if (!is_list()) {
+      return scalar_.wrong_kind(node_, key_.has_unit() ? "must be a list, as [\"0.2 mm\", \"8 mm\"]"
+                                                       : "must be a list of numbers, as [0.6, 0.4]");
+    }
     std::vector<double> values;
     bool is_good = true;
     for (const TomlNode& item : node_.items) {
@@ -82,6 +90,14 @@ class ValueReader {
                                 "must be the name of a CSV file or a list, as [[\"3.5 mm\", 0.0], [\"8.5 mm\", 1.0]]");
     }
     return inline_grading(slot);
+  }
+
+  bool operator()(const ClumpTemplatesSlot& slot) {
+    if (node_.kind == TomlKind::text) return read_clumps(slot);
+    if (!is_list()) {
+      return scalar_.wrong_kind(node_, "must be the name of a CSV file or a list, as [[\"egg\", 0, 0, 0, 1]]");
+    }
+    return inline_clumps(slot);
   }
 
   template <class Enumeration>
@@ -155,6 +171,61 @@ class ValueReader {
     const std::optional<double> share = ScalarReader(passing, problems_).quantity(item.items[1]);
     if (!size_value || !share) return std::nullopt;
     return GradingPoint{*size_value, *share};
+  }
+
+  bool read_clumps(const ClumpTemplatesSlot& slot) {
+    if (!scalar_.is_sound_text(node_)) return false;
+    *slot.file = node_.text;
+    ClumpFile file;
+    try {
+      file = read_clump_file(folder_ / node_.text);
+    } catch (const Error& error) {
+      problems_.error(node_.place, fmt::format("{}: {}", key_.path(), error.what()),
+                      "paths count from the folder of the case file");
+      return false;
+    }
+    for (std::string& text : file.problems) problems_.rendered_error(node_.place, std::move(text));
+    *slot.shapes = std::move(file.shapes);
+    return file.problems.empty();
+  }
+
+  bool inline_clumps(const ClumpTemplatesSlot& slot) {
+    std::vector<ClumpRow> rows;
+    bool is_good = true;
+    for (const TomlNode& item : node_.items) {
+      const std::optional<ClumpRow> row = clump_row(item);
+      is_good = is_good && row.has_value();
+      if (row) rows.push_back(*row);
+    }
+    *slot.shapes = clump_shapes_of(rows);
+    if (!is_good) return false;
+    for (const ClumpFault& fault : clump_faults(rows)) {
+      const TomlNode* place = &node_;
+      if (fault.part != ClumpFault::Part::whole) {
+        const TomlNode& row = node_.items[fault.row];
+        place = fault.part == ClumpFault::Part::row ? &row : &row.items[static_cast<std::size_t>(fault.part)];
+      }
+      problems_.error(place->place, fmt::format("{}: {}", key_.path(), fault.message));
+      is_good = false;
+    }
+    return is_good;
+  }
+
+  std::optional<ClumpRow> clump_row(const TomlNode& item) {
+    if (item.kind != TomlKind::array || item.items.size() != 5 || item.items[0].kind != TomlKind::text) {
+      problems_.error(
+          item.place,
+          fmt::format("{}: every pebble is [shape, x, y, z, radius], as [\"egg\", 0, 0, 0, 1]", key_.path()),
+          key_note(key_));
+      return std::nullopt;
+    }
+    std::array<double, 4> numbers{};
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const std::optional<double> number = scalar_.quantity(item.items[k + 1]);
+      if (!number) return std::nullopt;
+      numbers[k] = *number;
+    }
+    return ClumpRow{item.items[0].text, {{numbers[0], numbers[1], numbers[2]}, numbers[3]}};
   }
 
   const Key& key_;

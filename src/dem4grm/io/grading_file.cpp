@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "dem4grm/core/quantity.hpp"
-#include "dem4grm/io/case_problems.hpp"
+#include "dem4grm/io/csv_text.hpp"
 #include "dem4grm/io/text_file.hpp"
 #include "dem4grm/io/toml_scan.hpp"
 
@@ -25,34 +25,15 @@ std::string shown_passing(double passing, PassingUnit unit) {
   return unit == PassingUnit::percent ? format_decimal(passing, -2) + " %" : format_decimal(passing);
 }
 
-struct Field {
-  std::string_view text;
-  std::size_t begin = 0;  ///< bytes from the beginning of the line
-};
-
-std::vector<Field> split_fields(std::string_view line) {
-  std::vector<Field> fields;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::size_t next = end + 1;
-    while (begin < end && (line[begin] == ' ' || line[begin] == '\t')) ++begin;
-    while (end > begin && (line[end - 1] == ' ' || line[end - 1] == '\t')) --end;
-    fields.push_back({line.substr(begin, end - begin), begin});
-    begin = next;
-  }
-  return fields;
-}
-
 /// Reads the rows and remembers where each number stands.
 class GradingReader {
  public:
-  GradingReader(std::string_view text, std::string_view name) : name_(name), lines_(split_lines(text)) {}
+  GradingReader(std::string_view text, std::string_view name) : text_(text, name) {}
 
   GradingFile run() {
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const std::vector<Field> fields = split_fields(lines_[i]);
-      const bool is_blank = fields.size() == 1 && fields[0].text.empty();
-      if (is_blank || fields[0].text.starts_with('#')) continue;
+    for (std::size_t i = 0; i < text_.line_count(); ++i) {
+      const std::vector<CsvField> fields = text_.fields_of(i);
+      if (is_blank_or_comment(fields)) continue;
       if (!has_header_) {
         take_header(i, fields);
       } else if (result_.points.size() < k_most_rows) {
@@ -68,19 +49,19 @@ class GradingReader {
   }
 
  private:
-  void take_header(std::size_t line, const std::vector<Field>& fields) {
+  void take_header(std::size_t line, const std::vector<CsvField>& fields) {
     has_header_ = true;
     const bool is_right = fields.size() == 2 && fmt::format("{},{}", fields[0].text, fields[1].text) == k_header;
     if (!is_right) {
-      problem(line, {lines_[line], 0}, fmt::format("the first line must be the header \"{}\"", k_header),
+      problem(line, text_.whole(line), fmt::format("the first line must be the header \"{}\"", k_header),
               "a table of sieve size in mm and per cent passing by mass");
     }
   }
 
-  void take_row(std::size_t line, const std::vector<Field>& fields) {
+  void take_row(std::size_t line, const std::vector<CsvField>& fields) {
     if (fields.size() != 2) {
-      const bool has_semicolon = lines_[line].find(';') != std::string_view::npos;
-      problem(line, {lines_[line], 0}, fmt::format("{} instead of 2 numbers", fields.size()),
+      const bool has_semicolon = text_.whole(line).text.find(';') != std::string_view::npos;
+      problem(line, text_.whole(line), fmt::format("{} instead of 2 numbers", fields.size()),
               has_semicolon ? "separate the numbers by a comma and write decimals with a point"
                             : "sieve size in mm, per cent passing by mass");
       return;
@@ -97,7 +78,7 @@ class GradingReader {
   void report_faults() {
     for (const GradingFault& fault : grading_faults(result_.points, PassingUnit::percent)) {
       if (fault.part == GradingFault::Part::whole || fault.row >= rows_.size()) {
-        result_.problems.push_back(render_problem(name_, lines_, {}, "error", fault.message, ""));
+        result_.problems.push_back(text_.problem(fault.message));
         continue;
       }
       const Row& row = rows_[fault.row];
@@ -105,23 +86,16 @@ class GradingReader {
     }
   }
 
-  static std::string not_a_number(const Field& field) {
-    return fmt::format("\"{}\" is not a plain decimal number", printable(field.text, 40));
-  }
-
-  void problem(std::size_t line, const Field& field, std::string_view message, std::string_view note) {
-    const Place place{static_cast<int>(line) + 1, character_count(lines_[line].substr(0, field.begin)) + 1,
-                      std::max(1, character_count(field.text))};
-    result_.problems.push_back(render_problem(name_, lines_, place, "error", message, note));
+  void problem(std::size_t line, const CsvField& field, std::string_view message, std::string_view note) {
+    result_.problems.push_back(text_.problem(line, field, message, note));
   }
 
   struct Row {
     std::size_t line;
-    std::array<Field, 2> fields;
+    std::array<CsvField, 2> fields;
   };
 
-  std::string name_;
-  std::vector<std::string_view> lines_;
+  CsvText text_;
   std::vector<Row> rows_;
   GradingFile result_;
   bool has_header_ = false;
@@ -169,7 +143,7 @@ std::vector<GradingFault> grading_faults(const Grading& grading, PassingUnit uni
 }
 
 GradingFile parse_grading(std::string_view text, std::string_view name) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  text = without_mark(text);
   if (text.size() > k_largest_case_file) {
     return {{}, {fmt::format("{}:1:1: error: the file is larger than 1 MiB: this is not a grading", name)}};
   }

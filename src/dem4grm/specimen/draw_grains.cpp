@@ -42,8 +42,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string unknown_shape(std::string_view name) {
+/// The shape of the user with that name, or nullptr.
+const ClumpShape* find_own_shape(const SpecimenSettings& settings, std::string_view name) {
+  const auto found = std::find_if(settings.clump_templates.begin(), settings.clump_templates.end(),
+                                  [name](const ClumpShape& shape) { return shape.name == name; });
+  return found == settings.clump_templates.end() ? nullptr : &*found;
+}
+
+std::string unknown_shape(const SpecimenSettings& settings, std::string_view name) {
   std::vector<std::string> known;
+  for (const ClumpShape& shape : settings.clump_templates) known.push_back(shape.name);
   for (const ClumpTemplate& shape : standard_clump_templates()) known.push_back(shape.name);
   known.emplace_back("sphere");
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
@@ -94,6 +102,23 @@ void check_counts(std::vector<std::string>& problems, const SpecimenSettings& se
   if (content >= 1.0 && clumps > 0) problems.push_back(fmt::format("{} gravel clumps at rubber content 1", clumps));
 }
 
+void check_shapes(std::vector<std::string>& problems, const SpecimenSettings& settings) {
+  for (const std::string& name : settings.clump_shapes) {
+    const bool is_known = find_own_shape(settings, name) != nullptr || find_clump_template(name) != nullptr;
+    if (!is_known) problems.push_back(unknown_shape(settings, name));
+  }
+  if (settings.clump_shares.empty()) return;
+  if (settings.clump_shares.size() != settings.clump_shapes.size()) {
+    problems.push_back(fmt::format("{} shares of volume for {} clump shapes", settings.clump_shares.size(),
+                                   settings.clump_shapes.size()));
+  }
+  for (const double share : settings.clump_shares) {
+    if (!(std::isfinite(share) && share > 0.0)) {
+      problems.push_back(fmt::format("the share {} of a clump shape is not positive", share));
+    }
+  }
+}
+
 void check_settings(const SpecimenSettings& settings, const BoxSettings& box) {
   std::vector<std::string> problems;
   check_counts(problems, settings);
@@ -103,9 +128,7 @@ void check_settings(const SpecimenSettings& settings, const BoxSettings& box) {
     add_grading_problems(problems, "gravel", settings.gravel_grading);
     if (settings.clump_shapes.empty()) problems.emplace_back("no clump shape is named for the gravel");
   }
-  for (const std::string& name : settings.clump_shapes) {
-    if (find_clump_template(name) == nullptr) problems.push_back(unknown_shape(name));
-  }
+  check_shapes(problems, settings);
   if (contents.has_rubber) {
     const std::size_t before = problems.size();
     add_grading_problems(problems, "rubber", settings.rubber_grading);
@@ -121,13 +144,25 @@ void check_settings(const SpecimenSettings& settings, const BoxSettings& box) {
   if (!problems.empty()) throw InputError(fmt::format("grains of the specimen: {}", fmt::join(problems, "\n  ")));
 }
 
-/// Deals shapes so that each covers the same share of the volume, whatever the size: random among the shapes that are
-/// less than a mean grain ahead of the last. The dealing does not look at sizes, so that it is the same however the
+/// What a shape must hold for each unit of volume that all shapes hold in the mean: 1 for equal shares.
+std::vector<double> share_weights(const SpecimenSettings& settings) {
+  std::vector<double> weights(settings.clump_shapes.size(), 1.0);
+  if (settings.clump_shares.empty()) return weights;
+  double sum = 0.0;
+  for (const double share : settings.clump_shares) sum += share;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    weights[k] = settings.clump_shares[k] * static_cast<double>(weights.size()) / sum;
+  }
+  return weights;
+}
+
+/// Deals shapes so that each covers its share of the volume, whatever the size: random among the shapes that are less
+/// than a mean grain ahead of the last, when the volume that a shape has is counted in units of its share. The dealing does not look at sizes, so that it is the same however the
 /// sizes are scaled to reach a number of grains; neighbours on the mass axis are nearly equal, which keeps it fair.
 class ShapeDealer {
  public:
-  ShapeDealer(const std::vector<ClumpTemplate>& shapes, std::uint64_t seed)
-      : shapes_(shapes), dealt_(shapes.size(), 0.0), random_(seed, RandomStream::grain_shape, 0) {
+  ShapeDealer(const std::vector<ClumpTemplate>& shapes, std::span<const double> weights, std::uint64_t seed)
+      : shapes_(shapes), weights_(weights), dealt_(shapes.size(), 0.0), random_(seed, RandomStream::grain_shape, 0) {
     for (const ClumpTemplate& shape : shapes) mean_volume_ += shape.volume / static_cast<double>(shapes.size());
   }
 
@@ -138,14 +173,15 @@ class ShapeDealer {
       if (dealt_[shape] < lead) candidates_.push_back(static_cast<int>(shape));
     }
     const auto pick = static_cast<std::size_t>(random_.uniform() * static_cast<double>(candidates_.size()));
-    const int shape = candidates_[pick];
-    dealt_[static_cast<std::size_t>(shape)] += shapes_[static_cast<std::size_t>(shape)].volume;
-    return shape;
+    const auto shape = static_cast<std::size_t>(candidates_[pick]);
+    dealt_[shape] += shapes_[shape].volume / weights_[shape];
+    return static_cast<int>(shape);
   }
 
  private:
   const std::vector<ClumpTemplate>& shapes_;
-  std::vector<double> dealt_;  ///< volume of all grains of the shape so far, as if all had size 1
+  std::span<const double> weights_;  ///< of each shape, 1 in the mean
+  std::vector<double> dealt_;  ///< volume of all grains of the shape so far, as if all had size 1, over the weight
   RandomSequence random_;
   double mean_volume_ = 0.0;
   std::vector<int> candidates_;
@@ -165,8 +201,7 @@ double share_middle(const Grading& grading, double start, double shape_volume, d
 
 /// Grains along the mass axis, as many as the volume `total` takes.
 std::vector<GravelGrain> walk_volume(const Grading& grading, const std::vector<ClumpTemplate>& shapes, double total,
-                                     std::uint64_t seed) {
-  ShapeDealer dealer(shapes, seed);
+                                     ShapeDealer dealer) {
   std::vector<GravelGrain> grains;
   for (double start = 0.0;;) {
     const int shape = dealer.next();
@@ -194,8 +229,7 @@ double walk_count(const Grading& grading, const std::vector<ClumpTemplate>& shap
 /// Exactly so many grains that cover the mass axis: bisection on the total volume, on which the end of the last share
 /// depends in one direction only.
 std::vector<GravelGrain> walk_exact_count(const Grading& grading, const std::vector<ClumpTemplate>& shapes, int count,
-                                          std::uint64_t seed) {
-  ShapeDealer dealer(shapes, seed);
+                                          ShapeDealer dealer) {
   std::vector<GravelGrain> grains(static_cast<std::size_t>(count));
   double unit_volume = 0.0;
   for (GravelGrain& grain : grains) {
@@ -222,8 +256,10 @@ void shuffle(std::vector<GravelGrain>& grains, std::uint64_t seed) {
 
 void draw_gravel(GrainList& list, const SpecimenSettings& settings, double volume, std::uint64_t seed) {
   const Grading& grading = settings.gravel_grading;
+  const std::vector<double> weights = share_weights(settings);
+  const ShapeDealer dealer(list.shapes, weights, seed);
   if (settings.gravel_clumps) {
-    list.gravel = walk_exact_count(grading, list.shapes, *settings.gravel_clumps, seed);
+    list.gravel = walk_exact_count(grading, list.shapes, *settings.gravel_clumps, dealer);
   } else {
     const double smallest = cube(smallest_size(grading));
     const auto least = std::min_element(list.shapes.begin(), list.shapes.end(),
@@ -234,7 +270,7 @@ void draw_gravel(GrainList& list, const SpecimenSettings& settings, double volum
                       "are the sizes in millimetres?",
                       k_most_grains));
     }
-    list.gravel = walk_volume(grading, list.shapes, volume, seed);
+    list.gravel = walk_volume(grading, list.shapes, volume, dealer);
   }
   if (list.gravel.empty()) throw InputError("grains of the specimen: the box is too small for one gravel grain");
   shuffle(list.gravel, seed);
@@ -268,7 +304,10 @@ GrainList draw_grains(const SpecimenSettings& settings, const BoxSettings& box, 
   const double solid_volume = box.length * box.width * box.height / (1.0 + void_ratio);
 
   GrainList list;
-  for (const std::string& name : settings.clump_shapes) list.shapes.push_back(*find_clump_template(name));
+  for (const std::string& name : settings.clump_shapes) {
+    const ClumpShape* own = find_own_shape(settings, name);
+    list.shapes.push_back(own != nullptr ? make_clump_template(name, own->pebbles) : *find_clump_template(name));
+  }
   const Contents contents = contents_of(settings);
   if (contents.has_rubber) draw_rubber(list, settings, content * solid_volume, ball_density, solid_density);
   if (contents.has_gravel) draw_gravel(list, settings, (1.0 - content) * solid_volume, seed);

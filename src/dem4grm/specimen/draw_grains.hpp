@@ -17,7 +17,7 @@ namespace dem {
 ///   gravel       walks along the mass axis of its grading: each grain covers its own share of the mass and has the
 ///                size at the middle of that share, so few grains follow the curve as well as many do; it stops where
 ///                the middle of the next share would lie beyond the end
-///   shapes       equal shares of volume at every size: drawn at random among the shapes that lag behind
+///   shapes       their shares of volume (equal by default) at every size: drawn at random among those that lag behind
 ///
 /// Explicit counts in the settings win over the rubber content. With an explicit number of clumps the walk is scaled
 /// so that so many grains cover the mass axis exactly. The order of the gravel is shuffled at the end. The list depends
@@ -25,7 +25,7 @@ namespace dem {
 ///
 /// Densities in kg/m3, of the balls of a rubber grain and of solid rubber; only their ratio matters. Throws InputError
 /// that lists every problem: contents or counts that contradict each other, unusable gradings, a rubber grading that is
-/// wider than +-10 % of its D50, unknown shapes, no grains or too many.
+/// wider than +-10 % of its D50, unknown shapes, shares that do not fit them, no grains or too many.
 GrainList draw_grains(const SpecimenSettings& settings, const BoxSettings& box, double ball_density,
                       double solid_density, std::uint64_t seed);
 

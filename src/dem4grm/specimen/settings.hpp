@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dem4grm/grains/clump_template.hpp"
+
 namespace dem {
 
 /// One line of a grading: share of the mass that passes a sieve.
@@ -17,6 +19,12 @@ using Grading = std::vector<GradingPoint>;
 
 /// Target of the search when a case names neither a relative density nor a preparation friction (Chew et al. 2022).
 inline constexpr double k_default_relative_density = 0.5;
+
+/// A clump shape of the user: pebbles in any frame and any unit of length, since only the shape counts.
+struct ClumpShape {
+  std::string name;
+  std::vector<Pebble> pebbles;
+};
 
 struct SpecimenSettings {
   double rubber_content = 0.0;                 ///< VRC, fraction of the solid volume
@@ -30,7 +38,10 @@ struct SpecimenSettings {
   std::vector<double> load_steps;              ///< Pa, rising: rest under these on the way to the normal stress
   Grading gravel_grading, rubber_grading;      ///< read from the files named in the case
   std::string gravel_grading_file, rubber_grading_file;
+  std::vector<ClumpShape> clump_templates;  ///< shapes beside the shipped ones
+  std::string clump_templates_file;
   std::vector<std::string> clump_shapes{"T1", "T2", "T3", "T4", "T5", "T6"};
+  std::vector<double> clump_shares;  ///< of the gravel's volume, one for each of clump_shapes; empty: equal
   std::optional<int> gravel_clumps;  ///< explicit count instead of the one from the box volume
   std::optional<int> rubber_grains;
   std::optional<double> expected_void_ratio;    ///< sets the number of grains; default by rubber content

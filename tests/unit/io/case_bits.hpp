@@ -39,6 +39,17 @@ struct SlotBits {
     for (const GradingPoint& point : *slot.points) text += " " + bits_of(point.size) + "/" + bits_of(point.passing);
     return text;
   }
+  std::string operator()(const ClumpTemplatesSlot& slot) const {
+    std::string text = *slot.file;
+    for (const ClumpShape& shape : *slot.shapes) {
+      text += " " + shape.name;
+      for (const auto& [p, radius] : shape.pebbles) {
+        text += "/" + bits_of(p.x) + "," + bits_of(p.y) + "," + bits_of(p.z) + "," + bits_of(radius);
+      }
+    }
+    return text;
+  }
+  std::string operator()(const ShapeNamesSlot& slot) const { return bits_of(*slot.names); }
   template <class Value>
   std::string operator()(const Value* slot) const {
     return bits_of(*slot);

@@ -4,11 +4,16 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <regex>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/io/toml_scan.hpp"
+#include "support/run_program.hpp"
 
 namespace dem {
 namespace {
@@ -102,6 +107,31 @@ TEST(GradingFileTest, ShippedGradingsAreThePublishedMaterials) {
   const GradingFile rubber = read_grading_file(folder / "rubber-3.7mm.csv");
   ASSERT_TRUE(rubber.problems.empty());
   EXPECT_NEAR(size_at(rubber.points, 0.5), 3.7e-3, 1e-12);
+}
+
+TEST(GradingFileTest, ShippedTablesHaveTheD50AndCuOfTheirHeads) {
+  const std::filesystem::path folder = std::filesystem::path(DEM_SOURCE_DIR) / "cases" / "gradings";
+  std::map<std::string, std::pair<double, double>> found;  // D50 in mm and Cu by file
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string text = test::read_all(entry.path());
+    std::smatch stated;
+    ASSERT_TRUE(std::regex_search(text, stated, std::regex("has D50 ([0-9.]+) mm and Cu = D60/D10 = ([0-9.]+)[. ;]")))
+        << entry.path();
+    const GradingFile file = parse_grading(text, entry.path().string());
+    ASSERT_TRUE(file.problems.empty()) << file.problems[0];
+    const double middle = 1e3 * size_at(file.points, 0.5);
+    const double uniformity = size_at(file.points, 0.6) / size_at(file.points, 0.1);
+    EXPECT_NEAR(middle, std::stod(stated[1]), 0.005) << entry.path();
+    EXPECT_NEAR(uniformity, std::stod(stated[2]), 0.006) << entry.path();
+    found[entry.path().filename().string()] = {middle, uniformity};
+  }
+  const auto& [narrow, wide] = std::pair(found.at("gravel-narrow.csv"), found.at("gravel-wide.csv"));
+  EXPECT_NEAR(narrow.first, found.at("gravel-rounded.csv").first, 0.01);
+  EXPECT_NEAR(wide.first, found.at("gravel-rounded.csv").first, 0.01);
+  EXPECT_NEAR(narrow.second, 1.2, 0.01);
+  EXPECT_NEAR(wide.second, 2.2, 0.01);
+  EXPECT_NEAR(found.at("rubber-narrow.csv").second, 1.1, 0.01);
+  EXPECT_NEAR(found.at("rubber-wide.csv").second, 1.6, 0.01);
 }
 
 }  // namespace
