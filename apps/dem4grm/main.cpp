@@ -62,6 +62,7 @@ int run_program(int argc, char** argv) {
   dem::add_specimen(app);
   dem::add_run(app);
   dem::add_info(app);
+  dem::add_sieve(app);
   dem::add_micro(app);
   dem::add_verify(app);
   try {

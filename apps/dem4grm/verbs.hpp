@@ -15,6 +15,7 @@ void add_check(CLI::App& app);
 void add_specimen(CLI::App& app);
 void add_run(CLI::App& app);
 void add_info(CLI::App& app);
+void add_sieve(CLI::App& app);
 void add_micro(CLI::App& app);
 void add_verify(CLI::App& app);
 

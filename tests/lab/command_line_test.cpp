@@ -30,7 +30,8 @@ TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
 
 TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
   for (const std::vector<std::string>& verb :
-       std::vector<std::vector<std::string>>{{}, {"new"}, {"check"}, {"run"}, {"info"}, {"micro"}, {"verify"}}) {
+       std::vector<std::vector<std::string>>{
+           {}, {"new"}, {"check"}, {"specimen"}, {"run"}, {"info"}, {"sieve"}, {"micro"}, {"verify"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProgramResult result = run(arguments);
@@ -183,6 +184,14 @@ TEST_F(CommandLine, ARunTellsItsStoryAndIsNotRepeated) {
   EXPECT_NE(info.out.find("whole"), std::string::npos) << info.out;
   EXPECT_NE(run({"info", "runs/tiny/specimen.h5"}).out.find("state 0000"), std::string::npos);
   expect(66, "no output folder", {"info", "."});
+  const ProgramResult sieve = run({"sieve", "--sieves", "3.6mm,3.8mm,4mm", "runs/tiny", "--json", "--csv", "s.csv"});
+  EXPECT_EQ(sieve.exit_code, 0) << sieve.err;
+  EXPECT_EQ(std::get<JsonList>(find_field(parse_json(sieve.out, "sieve --json"), "sieves")->data).size(), 3U);
+  EXPECT_TRUE(read_all(folder_ / "s.csv").starts_with("sieve_mm,gravel_passing_percent,"));
+  EXPECT_NE(run({"sieve", "runs/tiny/results.h5"}).out.find("137 grains"), std::string::npos);
+  expect(64, "\"4\" has no unit", {"sieve", "runs/tiny", "--sieves", "4"});
+  expect(66, "holds neither", {"sieve", "."});
+  expect(74, "tiny.toml", {"sieve", "tiny.toml"});
   expect(66, "no such file", {"info", "missing.h5"});
   expect(74, "tiny.toml", {"info", "tiny.toml"});
   std::filesystem::copy_file(folder_ / "runs/tiny/specimen.h5", folder_ / "runs/tiny/results.h5",
