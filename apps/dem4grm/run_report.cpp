@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <variant>
 
 namespace dem {
@@ -70,6 +72,31 @@ std::string summary_lines(const JsonObject& summary) {
   text += line("state hash", text_in(summary, "state_hash"));
   text += line("wall time", fmt::format("{:.1f} s, {:.0f} steps, {:.0f} thread(s)", number_in(summary, "wall_time_s"),
                                         number_in(summary, "steps"), number_in(summary, "threads")));
+  return text;
+}
+
+std::string homogeneity_lines(const JsonObject& fields) {
+  if (find_field(fields, "homogeneity_cells") == nullptr) return {};
+  // A box may be too small for some of the numbers.
+  const auto shown = [&](const char* name, int digits) {
+    const double value = number_in(fields, name, std::numeric_limits<double>::quiet_NaN());
+    return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string("-");
+  };
+  std::string text;
+  text += line("scatter over cells",
+               fmt::format("void ratio {}, rubber content {}, in {} cells", shown("homogeneity_void_ratio_scatter", 3),
+                           shown("homogeneity_rubber_content_scatter", 3), shown("homogeneity_cells", 0)));
+  text += line("void ratio by place",
+               fmt::format("{} inside, {} at the plates, {} at the side walls", shown("void_ratio_inside", 3),
+                           shown("void_ratio_at_plates", 3), shown("void_ratio_at_side_walls", 3)));
+  text += line("layering", fmt::format("{} at the plates, {} at the side walls", shown("layering_at_plates", 3),
+                                       shown("layering_at_side_walls", 3)));
+  text += line("fabric before shear",
+               fmt::format("deviator {} (noise {}), in x-z {} (noise {})", shown("fabric_deviator_before_shear", 3),
+                           shown("fabric_deviator_noise", 3), shown("fabric_amplitude_xz_before_shear", 3),
+                           shown("fabric_amplitude_xz_noise", 3)));
+  text += line("largest overlap", fmt::format("{} of a radius; caught: {}", shown("largest_overlap_before_shear", 4),
+                                              shown("caught_balls_before_shear", 0)));
   return text;
 }
 

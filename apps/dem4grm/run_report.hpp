@@ -12,6 +12,9 @@ namespace dem {
 /// The main numbers of a summary as lines of text.
 std::string summary_lines(const JsonObject& summary);
 
+/// How even a specimen is, from the fields of homogeneity_fields (io/summary.hpp), as lines of text; empty without them.
+std::string homogeneity_lines(const JsonObject& fields);
+
 /// The same with the folder, the time it took and the next command.
 std::string run_report(const JsonObject& summary, const std::filesystem::path& folder, bool was_complete);
 

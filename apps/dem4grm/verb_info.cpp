@@ -8,6 +8,8 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/io/output_folder.hpp"
 #include "dem4grm/io/results_file.hpp"
+#include "dem4grm/io/stored_grains.hpp"
+#include "dem4grm/io/summary.hpp"
 #include "run_report.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -65,7 +67,8 @@ void show_folder(const std::filesystem::path& folder) {
     const JsonObject summary = read_json_file(folder / file_name::k_summary);
     const StoredResults stored = read_outline(results);
     compare(folder, summary, stored);
-    text += summary_lines(summary) + outline_text(results, stored) + "  whole: the last state is that of the summary\n";
+    text += summary_lines(summary) + homogeneity_lines(summary) + outline_text(results, stored) +
+            "  whole: the last state is that of the summary\n";
   } else if (std::filesystem::exists(results, ignored)) {
     text += outline_text(results, read_outline(results));
   }
@@ -78,7 +81,12 @@ void show(const InfoOptions& options) {
   if (std::filesystem::is_directory(path, error)) {
     show_folder(path);
   } else {
-    print_result(outline_text(path, read_outline(path)));
+    const StoredResults stored = read_outline(path);
+    const bool is_before_shear =
+        stored.test == "direct_shear" && !stored.frames.empty() && stored.frames.front().displacement == 0.0;
+    print_result(
+        outline_text(path, stored) +
+        (is_before_shear ? homogeneity_lines(homogeneity_fields(homogeneity_of(read_stored_grains(path)))) : ""));
   }
 }
 

@@ -183,6 +183,10 @@ TEST_F(CommandLine, ARunTellsItsStoryAndIsNotRepeated) {
   EXPECT_EQ(info.exit_code, 0) << info.err;
   EXPECT_NE(info.out.find("whole"), std::string::npos) << info.out;
   EXPECT_NE(run({"info", "runs/tiny/specimen.h5"}).out.find("state 0000"), std::string::npos);
+  // The stored specimen gives the numbers that the run found on the live one.
+  const std::size_t scatter = info.out.find("  scatter over cells"), end = info.out.find("runs/tiny/results.h5");
+  ASSERT_NE(scatter, std::string::npos) << info.out;
+  EXPECT_TRUE(run({"info", "runs/tiny/specimen.h5"}).out.ends_with(info.out.substr(scatter, end - scatter)));
   expect(66, "no output folder", {"info", "."});
   const ProgramResult sieve = run({"sieve", "--sieves", "3.6mm,3.8mm,4mm", "runs/tiny", "--json", "--csv", "s.csv"});
   EXPECT_EQ(sieve.exit_code, 0) << sieve.err;

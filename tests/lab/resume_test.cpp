@@ -201,6 +201,10 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
     EXPECT_EQ(result->steps, expected.steps);
     EXPECT_EQ(result->specimen.void_ratio_prepared, expected.specimen.void_ratio_prepared);
     EXPECT_EQ(result->specimen.fill_overlap, expected.specimen.fill_overlap);
+    EXPECT_GT(result->homogeneity.fabric.contacts, 100);
+    EXPECT_EQ(result->homogeneity.fabric.deviator, expected.homogeneity.fabric.deviator);
+    EXPECT_EQ(result->homogeneity.layering_at_plates, expected.homogeneity.layering_at_plates);
+    EXPECT_EQ(result->homogeneity.overlap.largest, expected.homogeneity.overlap.largest);
     EXPECT_EQ(result->specimen.time_step.limited_by, expected.specimen.time_step.limited_by);
   }
   omp_set_num_threads(before);

@@ -10,6 +10,7 @@
 #include "dem4grm/io/case_file.hpp"
 #include "dem4grm/io/hdf5_handle.hpp"
 #include "dem4grm/io/output_folder.hpp"
+#include "dem4grm/specimen/sieve_analysis.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -97,6 +98,14 @@ StoredGrains read_stored_grains(const std::filesystem::path& path) {
     if (e.code() == ExitCode::usage || std::string_view(e.what()).starts_with(shown)) throw;
     throw IoError(fmt::format("{}: {}; the file is damaged or no result of dem4grm", shown, e.what()));
   }
+}
+
+Homogeneity homogeneity_of(const StoredGrains& stored) {
+  const DirectShearCase& test = stored.test;
+  const MeasuredGrains grains = measure_grains(stored.packing, test.rubber.density, test.rubber_solid_density);
+  const Bounds room{{}, {test.box.length, test.box.width, stored.plate_height}};
+  return measure_homogeneity(stored.packing, stored.normals, room, mean_size(grains),
+                             test.rubber.density / test.rubber_solid_density);
 }
 
 }  // namespace dem

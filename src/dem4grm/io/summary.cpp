@@ -87,6 +87,7 @@ JsonObject beginning_of(const DirectShearCase& test, const DirectShearResult& re
                    {"time_step_limited_by", result.specimen.time_step.limited_by},
                    {"wall_time_s", facts.wall_time}});
   append(summary, specimen_of(test, result));
+  append(summary, homogeneity_fields(result.homogeneity));
   return summary;
 }
 
@@ -143,6 +144,24 @@ JsonObject ending_of(const RunFacts& facts, const std::string& state_hash) {
 }
 
 }  // namespace
+
+JsonObject homogeneity_fields(const Homogeneity& h) {
+  return {{"homogeneity_cells", h.cells},
+          {"homogeneity_void_ratio_scatter", h.void_ratio_scatter},
+          {"homogeneity_rubber_content_scatter", h.rubber_content_scatter},
+          {"void_ratio_inside", h.void_ratio_inside},
+          {"void_ratio_at_plates", h.void_ratio_at_plates},
+          {"void_ratio_at_side_walls", h.void_ratio_at_sides},
+          {"layering_at_plates", h.layering_at_plates},
+          {"layering_at_side_walls", h.layering_at_sides},
+          {"contacts_before_shear", h.fabric.contacts},
+          {"fabric_deviator_before_shear", h.fabric.deviator},
+          {"fabric_deviator_noise", h.fabric.deviator_noise},
+          {"fabric_amplitude_xz_before_shear", h.fabric.amplitude_xz},
+          {"fabric_amplitude_xz_noise", h.fabric.amplitude_xz_noise},
+          {"largest_overlap_before_shear", h.overlap.largest},
+          {"caught_balls_before_shear", h.overlap.caught}};
+}
 
 double energy_closure_per_cent(const EnergyReport& start, const EnergyReport& end) {
   const double stored = (end.kinetic - start.kinetic) + (end.contact_strain - start.contact_strain) +

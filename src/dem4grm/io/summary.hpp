@@ -24,6 +24,9 @@ struct RunFacts {
 /// `end` may count their works from different origins only if `start` has none. 0 when the walls did no work.
 double energy_closure_per_cent(const EnergyReport& start, const EnergyReport& end);
 
+/// How even a specimen is before shear, as fields of summary.json.
+JsonObject homogeneity_fields(const Homogeneity& homogeneity);
+
 /// All names of summary.json (docs/reference/output-folder.md) in their order.
 JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts);
 JsonObject grain_compression_summary(const GrainCompressionCase& test, const GrainCompressionResult& result,

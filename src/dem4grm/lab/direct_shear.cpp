@@ -77,10 +77,11 @@ struct IntervalSums {
 
 class ShearStage {
  public:
-  ShearStage(const DirectShearCase& test, Specimen& specimen, LabObserver& observer)
+  ShearStage(const DirectShearCase& test, Specimen& specimen, Homogeneity& homogeneity, LabObserver& observer)
       : test_(test),
         specimen_(specimen),
         s_(*specimen.simulation),
+        homogeneity_(homogeneity),
         observer_(observer),
         frames_(state_displacements(test)),
         micro_(micro_displacements(test)) {
@@ -242,6 +243,7 @@ class ShearStage {
     archive.exchange("start_height", start_height_);
     archive.group("start_energy", [&] { exchange(archive, start_energy_); });
     archive.exchange("steps", shear_steps_);
+    archive.group("homogeneity", [&] { exchange(archive, homogeneity_); });
     archive.group("sums", [&] {
       archive.exchange("lower", sums_.lower);
       archive.exchange("upper", sums_.upper);
@@ -259,6 +261,7 @@ class ShearStage {
   const DirectShearCase& test_;
   Specimen& specimen_;
   Simulation& s_;
+  Homogeneity& homogeneity_;
   LabObserver& observer_;
   std::vector<double> frames_, micro_;  ///< m, where states and micro-mechanics are recorded
   double displacement_ = 0.0, start_height_ = 0.0;
@@ -308,6 +311,19 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
   out.state_hash = s.state_hash();
 }
 
+/// How even the finished specimen is; warns when a grain is caught in another.
+Homogeneity examine(const DirectShearCase& test, const Specimen& specimen, LabObserver& observer) {
+  const Simulation& s = *specimen.simulation;
+  const Bounds room{{}, {test.box.length, test.box.width, s.walls[ShearBox::k_top_plate].corner.z}};
+  const Homogeneity found = measure_homogeneity(packing_of(s), contact_normals(s), room, specimen.report.mean_size,
+                                                test.rubber.density / test.rubber_solid_density);
+  if (found.overlap.caught > 0) {
+    observer.warning(fmt::format(
+        "{} ball centres lie inside other grains of the finished specimen; choose another seed", found.overlap.caught));
+  }
+  return found;
+}
+
 PreparationHooks hooks_of(LabObserver& observer, StateArchive* from) {
   PreparationHooks hooks;
   hooks.resumed = from;
@@ -347,11 +363,14 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
         "specimen.expected_void_ratio to {:.3f} for the right number of grains",
         specimen.report.height * 1e3, miss * 100.0, test.box.height * 1e3, specimen.report.void_ratio_before_shear));
   }
-  ShearStage stage(test, specimen, observer);
+  Homogeneity homogeneity;
+  if (!is_in_shear) homogeneity = examine(test, specimen, observer);
+  ShearStage stage(test, specimen, homogeneity, observer);
   stage.run(is_in_shear ? from : nullptr);
 
   DirectShearResult out;
   out.specimen = specimen.report;
+  out.homogeneity = homogeneity;
   out.rows = stage.rows();
   out.micro_rows = stage.micro_rows();
   out.displacement = out.rows.empty() ? 0.0 : out.rows.back().displacement;

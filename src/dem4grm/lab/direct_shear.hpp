@@ -7,6 +7,7 @@
 #include "dem4grm/lab/case.hpp"
 #include "dem4grm/lab/observer.hpp"
 #include "dem4grm/lab/shear_curve.hpp"
+#include "dem4grm/specimen/homogeneity.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
@@ -14,6 +15,7 @@ namespace dem {
 /// What is left of a test beside its rows and frames; SI units.
 struct DirectShearResult {
   SpecimenReport specimen;
+  Homogeneity homogeneity;  ///< before shear
   ShearCurve curve;
   std::vector<ShearRow> rows;
   std::vector<MicroRow> micro_rows;

@@ -88,4 +88,22 @@ void exchange(StateArchive& archive, std::vector<MicroRow>& rows) {
   }
 }
 
+void exchange(StateArchive& archive, Homogeneity& h) {
+  archive.exchange("cells", h.cells);
+  archive.exchange("void_ratio_scatter", h.void_ratio_scatter);
+  archive.exchange("rubber_content_scatter", h.rubber_content_scatter);
+  archive.exchange("void_ratio_inside", h.void_ratio_inside);
+  archive.exchange("void_ratio_at_plates", h.void_ratio_at_plates);
+  archive.exchange("void_ratio_at_sides", h.void_ratio_at_sides);
+  archive.exchange("layering_at_plates", h.layering_at_plates);
+  archive.exchange("layering_at_sides", h.layering_at_sides);
+  archive.exchange("contacts", h.fabric.contacts);
+  archive.exchange("deviator", h.fabric.deviator);
+  archive.exchange("deviator_noise", h.fabric.deviator_noise);
+  archive.exchange("amplitude_xz", h.fabric.amplitude_xz);
+  archive.exchange("amplitude_xz_noise", h.fabric.amplitude_xz_noise);
+  archive.exchange("largest_overlap", h.overlap.largest);
+  archive.exchange("caught", h.overlap.caught);
+}
+
 }  // namespace dem

@@ -6,6 +6,7 @@
 
 #include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/lab/observer.hpp"
+#include "dem4grm/specimen/homogeneity.hpp"
 
 namespace dem {
 
@@ -13,5 +14,7 @@ namespace dem {
 void exchange(StateArchive& archive, std::vector<FrameInfo>& frames);
 void exchange(StateArchive& archive, std::vector<ShearRow>& rows);
 void exchange(StateArchive& archive, std::vector<MicroRow>& rows);
+/// What was measured before shear, which cannot be measured any more.
+void exchange(StateArchive& archive, Homogeneity& homogeneity);
 
 }  // namespace dem

@@ -112,6 +112,17 @@ MeasuredGrains measure_grains(const Packing& packing, double ball_density, doubl
   return grains;
 }
 
+double mean_size(const MeasuredGrains& grains) {
+  double all = 0.0, sum = 0.0;
+  for (const auto* of_material : {&grains.gravel, &grains.rubber}) {
+    for (const MeasuredGrain& grain : *of_material) {
+      all += grain.volume;
+      sum += grain.volume * grain.size;
+    }
+  }
+  return all > 0.0 ? sum / all : 0.0;
+}
+
 double share_passing(std::span<const MeasuredGrain> grains, double opening) {
   double passing = 0.0, all = 0.0;
   for (const MeasuredGrain& grain : grains) {
