@@ -22,7 +22,7 @@ void run_bonds(dem::Simulation& s, Kept& kept) {
     dem::BlockForces load;
     dem::BlockLosses losses;
     dem::begin_loads(dem::ContactLoads{}, load);
-    dem::add_history_free_bonds(s.bond, dem::grain_block(s.balls, block), s.dt, load, losses);
+    dem::add_history_free_bonds(s.rubber().bond, dem::grain_block(s.balls, block), s.dt, load, losses);
     kept[block] = load.value[0] + losses.dashpot[0];
   });
 }

@@ -108,7 +108,7 @@ void NaiveStep::add_grain(const Simulation& s, int grain) {
     }
     const HertzGeometry g =
         hertz_geometry({branch, velocity_[b] - velocity_[a], spin_[a], spin_[b], r, r, shear}, s.dt);
-    const HertzForce f = hertz_mindlin<k_plain>(s.second_neighbour, g.motion, s.dt);
+    const HertzForce f = hertz_mindlin<k_plain>(s.rubber().second_neighbour, g.motion, s.dt);
     shear = f.shear;
     const Vec3 force = f.shear - g.normal * f.normal, couple = cross(g.normal, f.shear);
     force_[a] += force, torque_[a] += couple * g.lever_i;
@@ -118,8 +118,8 @@ void NaiveStep::add_grain(const Simulation& s, int grain) {
     const auto a = static_cast<std::size_t>(base + pair.i), b = static_cast<std::size_t>(base + pair.j);
     const Vec3 direction = bond_direction(pair);
     const Vec3 directions = rotate(orientation_[a], direction) + rotate(orientation_[b], direction);
-    const BondForce f = history_free_bond(s.bond, position_[b] - position_[a], velocity_[b] - velocity_[a], directions,
-                                          orientation_[a], orientation_[b]);
+    const BondForce f = history_free_bond(s.rubber().bond, position_[b] - position_[a], velocity_[b] - velocity_[a],
+                                          directions, orientation_[a], orientation_[b]);
     force_[a] += f.force, torque_[a] += f.couple + f.moment;
     force_[b] += -f.force, torque_[b] += f.couple - f.moment;
   }
@@ -128,7 +128,7 @@ void NaiveStep::add_grain(const Simulation& s, int grain) {
 void NaiveStep::move_ball(const Simulation& s, int ball) {
   const auto b = static_cast<std::size_t>(ball);
   const double r = s.scene.rubber_ball_radius, alpha = s.scene.integration.local_damping;
-  const double per_mass = s.dt / s.rubber_ball_mass;
+  const double per_mass = s.dt / s.rubber().ball_mass;
   velocity_[b] += locally_damped(force_[b], velocity_[b], alpha) * per_mass;
   spin_[b] += locally_damped(torque_[b], spin_[b], alpha) * (per_mass * 2.5 / (r * r));
   position_[b] += velocity_[b] * s.dt;

@@ -80,7 +80,7 @@ TEST(BrokenBond, TurnsIntoAHertzContactInTheSameStep) {
   const Vec3 direction = bond_direction(s), before = s.balls.velocity(i);
   s.step();
   EXPECT_TRUE(read_bond(s, 0, 0).is_broken);
-  const double normal = dot((s.balls.velocity(i) - before) * (s.rubber_ball_mass / s.time_step()), direction);
+  const double normal = dot((s.balls.velocity(i) - before) * (s.rubber().ball_mass / s.time_step()), direction);
   EXPECT_NEAR(normal, 5.679437e5 * std::pow(now, 1.5), 1e-3 * normal);
   // The friction of the new contact starts from zero and takes up the slide of this step, capped at 0.27 of the force.
   EXPECT_NEAR(norm(read_bond(s, 0, 0).shear), std::min(0.27 * normal, 2.54e3 * 5e-6), 0.03 * 0.27 * normal);

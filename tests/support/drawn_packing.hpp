@@ -16,6 +16,7 @@ inline Scene drawn_scene(const DirectShearCase& test) {
   Scene scene = materials_of(test);
   scene.shapes = grains.shapes;
   scene.rubber_ball_radius = grains.rubber_ball_radius;
+  scene.rubber_ball_radii = grains.rubber_radii;
   scene.wall_list = ShearBox(test.box, test.box.height).walls();
   int cell = 0;
   const auto next_pose = [&] {

@@ -14,12 +14,12 @@ struct Companion {
 };
 
 template <HertzOptions options>
-Companion companion_of(const Simulation& s, const HertzGeometry& g) {
+Companion companion_of(const Simulation& s, const RubberSize& size, const HertzGeometry& g) {
   if (s.scene.bond.hertz_contact) {
-    const HertzForce f = hertz_mindlin<options>(s.second_neighbour, g.motion, s.last_dt);
+    const HertzForce f = hertz_mindlin<options>(size.second_neighbour, g.motion, s.last_dt);
     return {f.shear_total - g.normal * f.normal_total, f.shear, f.slip_work, f.dashpot_work};
   }
-  const SpringShear f = linear_spring_shear(s.bond, g.motion, s.last_dt);
+  const SpringShear f = linear_spring_shear(size.bond, g.motion, s.last_dt);
   return {f.shear, f.shear, f.slip_work, 0.0};
 }
 
@@ -27,7 +27,8 @@ template <HertzOptions options>
 void add_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
   const GrainBlock g = grain_block(s.balls, block);
-  const double r = s.scene.rubber_ball_radius;
+  const RubberSize& size = s.rubber_of_block(block);
+  const double r = size.ball_radius;
   const bool can_break = s.scene.bond.form == BondForm::incremental;
   for (std::size_t k = 0; k < k_grain_bonds; ++k) {
     const SlotPair pair = k_bonds_of_grain[k];
@@ -45,7 +46,7 @@ void add_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLos
                                                      r,
                                                      {h[0], h[w], h[2 * w]}},
                                                     s.last_dt);
-      const Companion c = companion_of<options>(s, geometry);
+      const Companion c = companion_of<options>(s, size, geometry);
       h[0] = c.shear.x, h[w] = c.shear.y, h[2 * w] = c.shear.z;
       const Vec3 couple = cross(geometry.normal, c.force);
       add_load(out, load_at(pair.i, lane), c.force, couple * geometry.lever_i);

@@ -13,7 +13,7 @@ namespace dem {
 template <bool dashpots>
 DEM_INLINE void gather_contacts(const Simulation& s, std::size_t block, ContactLoads& out) {
   const ContactTable& t = s.contacts;
-  const double radius = s.scene.rubber_ball_radius;
+  const double radius = s.rubber_of_block(block).ball_radius;
   const ContactState* const states = t.state.data();
   const int* const rows = s.references.row.data();
   const int* const places = s.references.place.data();

@@ -12,8 +12,9 @@ namespace {
 
 double kinetic_energy(const Simulation& s) {
   double energy = 0.0;
-  const double m = s.rubber_ball_mass, r = s.scene.rubber_ball_radius;
   for (int id = 0; id < s.balls.n_rubber_balls(); ++id) {
+    const RubberSize& size = s.rubber_of_grain(id / k_grain_balls);
+    const double m = size.ball_mass, r = size.ball_radius;
     const int i = s.balls.index_of_id(id);
     const Vec3 v = s.balls.velocity(i), w = s.balls.spin(i);
     energy += 0.5 * m * dot(v, v) + 0.2 * m * r * r * dot(w, w);
@@ -38,6 +39,7 @@ double contact_energy(const Simulation& s) {
 double second_neighbour_energy(const Simulation& s, int grain) {
   const std::size_t w = k_lanes, block = static_cast<std::size_t>(grain) / w,
                     lane = static_cast<std::size_t>(grain) % w;
+  const RubberSize& size = s.rubber_of_grain(grain);
   double energy = 0.0;
   for (std::size_t q = 0; q < k_grain_second_neighbours; ++q) {
     const SlotPair pair = k_second_neighbours_of_grain[q];
@@ -45,8 +47,7 @@ double second_neighbour_energy(const Simulation& s, int grain) {
                    s.balls.position(BallStore::rubber_index(grain, pair.i));
     const double* h =
         s.grain_history.second_neighbour_shear.data() + (block * k_grain_second_neighbours + q) * 3 * w + lane;
-    energy +=
-        hertz_mindlin_energy(s.second_neighbour, 2.0 * s.scene.rubber_ball_radius - norm(d), {h[0], h[w], h[2 * w]});
+    energy += hertz_mindlin_energy(size.second_neighbour, 2.0 * size.ball_radius - norm(d), {h[0], h[w], h[2 * w]});
   }
   return energy;
 }
@@ -59,10 +60,12 @@ double companion_energy(const Simulation& s, int grain, int bond_index, double l
   const double* h = s.grain_history.companion_shear.data() +
                     (block * k_grain_bonds + static_cast<std::size_t>(bond_index)) * 3 * w + lane;
   const Vec3 shear{h[0], h[w], h[2 * w]};
+  const RubberSize& size = s.rubber_of_grain(grain);
   if (s.scene.bond.hertz_contact) {
-    return hertz_mindlin_energy(s.second_neighbour, 2.0 * s.scene.rubber_ball_radius - length, shear);
+    return hertz_mindlin_energy(size.second_neighbour, 2.0 * size.ball_radius - length, shear);
   }
-  return s.bond.linear_shear_stiffness > 0.0 ? 0.5 * dot(shear, shear) / s.bond.linear_shear_stiffness : 0.0;
+  const double stiffness = size.bond.linear_shear_stiffness;
+  return stiffness > 0.0 ? 0.5 * dot(shear, shear) / stiffness : 0.0;
 }
 
 }  // namespace
@@ -73,6 +76,7 @@ BondReading read_bond(const Simulation& s, int grain, int bond_index) {
   const std::size_t w = k_lanes, block = static_cast<std::size_t>(grain) / w,
                     lane = static_cast<std::size_t>(grain) % w;
   const Vec3 branch = s.balls.position(b) - s.balls.position(a);
+  const BondParameters& bond = s.rubber_of_grain(grain).bond;
   BondReading out;
   out.length = norm(branch);
   out.normal = branch * (1.0 / out.length);
@@ -86,11 +90,11 @@ BondReading read_bond(const Simulation& s, int grain, int bond_index) {
     const Vec3 direction =
         (grain_site(pair.j) - grain_site(pair.i)) * (1.0 / norm(grain_site(pair.j) - grain_site(pair.i)));
     const Quaternion qi = s.balls.orientation(a), qj = s.balls.orientation(b);
-    const BondForce f = history_free_bond(s.bond, branch, {}, rotate(qi, direction) + rotate(qj, direction), qi, qj);
+    const BondForce f = history_free_bond(bond, branch, {}, rotate(qi, direction) + rotate(qj, direction), qi, qj);
     out.shear = perpendicular(f.force, out.normal);
     out.moment = f.moment;
   }
-  if (!out.is_broken) out.normal_force = bond_normal_force(s.bond, out.length, 0.0);
+  if (!out.is_broken) out.normal_force = bond_normal_force(bond, out.length, 0.0);
   return out;
 }
 
@@ -99,12 +103,13 @@ EnergyReport Simulation::energy() const {
   e.kinetic = kinetic_energy(*this);
   e.contact_strain = contact_energy(*this);
   for (int g = 0; g < balls.n_grains; ++g) {
+    const RubberSize& size = rubber_of_grain(g);
     for (int k = 0; k < k_grain_bonds; ++k) {
       const BondReading r = read_bond(*this, g, k);
       e.bond_strain +=
           r.is_broken
-              ? hertz_mindlin_energy(second_neighbour, 2.0 * scene.rubber_ball_radius - r.length, r.shear)
-              : bond_energy(bond, r.length, r.shear, r.moment, r.normal) + companion_energy(*this, g, k, r.length);
+              ? hertz_mindlin_energy(size.second_neighbour, 2.0 * size.ball_radius - r.length, r.shear)
+              : bond_energy(size.bond, r.length, r.shear, r.moment, r.normal) + companion_energy(*this, g, k, r.length);
     }
     e.contact_strain += second_neighbour_energy(*this, g);
   }

@@ -134,13 +134,13 @@ BondMotion motion_of(const GrainBlock& g, std::size_t a, std::size_t b) {
 
 /// A pair whose bond is gone: an ordinary Hertz contact with its shear history in the first three places.
 template <HertzOptions options>
-void add_broken_pair(const Simulation& s, const BondMotion& m, double* history, const SlotPair& pair, std::size_t lane,
-                     BlockForces& out, BlockLosses& losses) {
+void add_broken_pair(const Simulation& s, const RubberSize& size, const BondMotion& m, double* history,
+                     const SlotPair& pair, std::size_t lane, BlockForces& out, BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
-  const double r = s.scene.rubber_ball_radius;
+  const double r = size.ball_radius;
   const HertzGeometry geometry = hertz_geometry(
       {m.branch, m.relative_velocity, m.spin_i, m.spin_j, r, r, {history[0], history[w], history[2 * w]}}, s.last_dt);
-  const HertzForce f = hertz_mindlin<options>(s.second_neighbour, geometry.motion, s.last_dt);
+  const HertzForce f = hertz_mindlin<options>(size.second_neighbour, geometry.motion, s.last_dt);
   history[0] = f.shear.x;
   history[w] = f.shear.y;
   history[2 * w] = f.shear.z;
@@ -156,6 +156,7 @@ template <HertzOptions options>
 void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
   const GrainBlock g = grain_block(s.balls, block);
+  const RubberSize& size = s.rubber_of_block(block);
   for (std::size_t k = 0; k < k_grain_bonds; ++k) {
     const SlotPair pair = k_bonds_of_grain[k];
     double* stored = s.grain_history.bond.data() + (block * k_grain_bonds + k) * 6 * w;
@@ -166,7 +167,7 @@ void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLo
       if (broken[lane] == 0) {
         BondHistory history{{h[0], h[w], h[2 * w]}, {h[3 * w], h[4 * w], h[5 * w]}};
         bool breaks = false;
-        const BondForce f = incremental_bond(s.bond, m, s.last_dt, history, breaks);
+        const BondForce f = incremental_bond(size.bond, m, s.last_dt, history, breaks);
         if (!breaks) {
           h[0] = history.shear.x, h[w] = history.shear.y, h[2 * w] = history.shear.z;
           h[3 * w] = history.moment.x, h[4 * w] = history.moment.y, h[5 * w] = history.moment.z;
@@ -178,7 +179,7 @@ void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLo
         broken[lane] = 1;
         for (std::size_t c = 0; c < 6; ++c) h[c * w] = 0.0;
       }
-      add_broken_pair<options>(s, m, h, pair, lane, out, losses);
+      add_broken_pair<options>(s, size, m, h, pair, lane, out, losses);
     }
   }
 }

@@ -42,8 +42,9 @@ template <HertzOptions options>
 void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g, BlockForces& out,
                            BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
-  const double r = s.scene.rubber_ball_radius, reach2 = 4.0 * r * r, dt = s.last_dt;
-  const HertzParameters p = s.second_neighbour;
+  const RubberSize& size = s.rubber_of_block(block);
+  const double r = size.ball_radius, reach2 = 4.0 * r * r, dt = s.last_dt;
+  const HertzParameters p = size.second_neighbour;
   for (std::size_t q = 0; q < k_grain_second_neighbours; ++q) {
     const SlotPair pair = k_second_neighbours_of_grain[q];
     const std::size_t i = ball_at(pair.i, 0), j = ball_at(pair.j, 0);
@@ -80,11 +81,11 @@ void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g
 }
 
 /// Local damping, leapfrog and rotation of all balls of a block; returns the largest speed squared.
-double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, const double* inverse_mass,
+double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, double radius, const double* inverse_mass,
                  double* damping_work) {
   const double dt = s.dt, kick = s.kick_time(), alpha = s.scene.integration.local_damping;
   // Solid ball: I = 2/5 m r^2.
-  const double inertia_factor = 2.5 / (s.scene.rubber_ball_radius * s.scene.rubber_ball_radius);
+  const double inertia_factor = 2.5 / (radius * radius);
   alignas(64) double top[k_lanes] = {};
   alignas(64) double lost[k_lanes] = {};
   for (std::size_t slot = 0; slot < k_grain_balls; ++slot) {
@@ -138,12 +139,12 @@ void advance_block(Simulation& s, std::size_t block) {
   if (s.scene.bond.form == BondForm::incremental) {
     add_incremental_bonds(s, block, load, losses);
   } else {
-    add_history_free_bonds(s.bond, g, s.last_dt, load, losses);
+    add_history_free_bonds(s.rubber_of_block(block).bond, g, s.last_dt, load, losses);
   }
   if (!s.grain_history.companion_shear.empty()) add_bond_companions(s, block, load, losses);
   const std::size_t first = block * k_lanes;
-  s.block_top_speed2[block] =
-      integrate(s, g, load, s.lane_inverse_mass.data() + first, s.ledger.grain_damping.data() + first);
+  s.block_top_speed2[block] = integrate(s, g, load, s.rubber_of_block(block).ball_radius,
+                                        s.lane_inverse_mass.data() + first, s.ledger.grain_damping.data() + first);
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
     s.ledger.grain_slip[first + lane] += losses.slip[lane];
     s.ledger.grain_dashpot[first + lane] += losses.dashpot[lane];

@@ -15,6 +15,9 @@ namespace dem {
 enum Material : unsigned char { k_gravel = 0, k_rubber = 1 };
 inline constexpr int k_materials = 2;
 
+/// Rubber grains of one size in a run: a multiple of every pack width, so that a block holds one size.
+inline constexpr int k_grains_of_one_size = 8;
+
 struct Pose {
   Vec3 position;  ///< m
   Quaternion orientation;
@@ -34,8 +37,11 @@ struct Scene {
   ContactSettings contact;
   IntegrationSettings integration;
 
-  double rubber_ball_radius = 0.0;  ///< m
-  std::vector<Pose> grains;         ///< bonded rubber grains at rest, pose of the grain's cube axes
+  double rubber_ball_radius = 0.0;  ///< m, of the rubber grains; of the reference size when there are several
+  /// [grains] m; empty: all have the reference size. Grains come in runs of k_grains_of_one_size of equal radius (the
+  /// last run may be shorter). Smaller grains than the reference get a density that leaves the time step alone.
+  std::vector<double> rubber_ball_radii;
+  std::vector<Pose> grains;  ///< bonded rubber grains at rest, pose of the grain's cube axes
   std::vector<ClumpTemplate> shapes;
   std::vector<PlacedClump> clumps;
   std::vector<Wall> wall_list;

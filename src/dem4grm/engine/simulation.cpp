@@ -23,9 +23,9 @@ double ball_mass(double radius, double density) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
 }
 
-BondDescription describe_bond(const Scene& scene, double mass) {
+BondDescription describe_bond(const Scene& scene, double radius, double mass) {
   const BondSettings& b = scene.bond;
-  return {scene.rubber_ball_radius,
+  return {radius,
           mass,
           b.modulus,
           b.stiffness_ratio,
@@ -36,6 +36,25 @@ BondDescription describe_bond(const Scene& scene, double mass) {
           b.shear_strength,
           b.linear_spring,
           b.spring_friction};
+}
+
+/// Constants of grains whose balls have that radius. Balls smaller than those of the reference size weigh so much that
+/// every stiffness over its mass is that of the reference: stiffnesses go as r (at equal strain), so m goes as r and
+/// the density as 1/r^2. Then all grains up to the reference size have one stability limit, larger ones a longer one.
+RubberSize rubber_size(const Scene& scene, double r) {
+  const double reference = scene.rubber_ball_radius;
+  RubberSize size;
+  size.ball_radius = r;
+  size.ball_mass =
+      r < reference ? ball_mass(reference, scene.rubber.density) * (r / reference) : ball_mass(r, scene.rubber.density);
+  size.bond = bond_parameters(describe_bond(scene, r, size.ball_mass));
+  const MixedElastic mixed = mix(elastic(scene.rubber), elastic(scene.rubber));
+  const double h = r > 0.0 ? hertz_coefficient(mixed, r, r) : 0.0;
+  size.second_neighbour = {
+      h, mindlin_ratio(mixed), scene.rubber.friction,
+      dashpot_coefficient(scene.contact.normal_damping_ratio, 0.5 * size.ball_mass, 1.5 * h),
+      dashpot_coefficient(scene.contact.shear_damping_ratio, 0.5 * size.ball_mass, 1.5 * h * mindlin_ratio(mixed))};
+  return size;
 }
 
 }  // namespace
@@ -53,6 +72,7 @@ Simulation::Simulation(const Scene& description) : scene(description), walls(des
   owner_of.resize(n);
   place_of.resize(n);
   material_of.resize(n);
+  choose_rubber_sizes();
   place_grains();
   place_clumps();
 
@@ -67,19 +87,33 @@ Simulation::Simulation(const Scene& description) : scene(description), walls(des
   margins.largest = 2.0 * smallest;
 }
 
+void Simulation::choose_rubber_sizes() {
+  rubber_sizes = {rubber_size(scene, scene.rubber_ball_radius)};
+  size_of_block.assign(static_cast<std::size_t>(balls.n_blocks), 0);
+  const std::vector<double>& radii = scene.rubber_ball_radii;
+  if (radii.empty()) {
+    balls.grain_radius.assign(scene.grains.size(), scene.rubber_ball_radius);
+    return;
+  }
+  if (radii.size() != scene.grains.size()) throw InputError("every rubber grain needs a ball radius, or none has one");
+  balls.grain_radius = radii;
+  for (std::size_t g = 0; g < radii.size(); ++g) {
+    if (g % k_grains_of_one_size != 0) {
+      if (radii[g] != radii[g - 1]) throw InputError("rubber grains of one size must come in runs of eight");
+      continue;
+    }
+    if (!(radii[g] > 0.0)) throw InputError("rubber grains need a ball radius");
+    const bool is_known = rubber_sizes.back().ball_radius == radii[g];
+    if (!is_known) rubber_sizes.push_back(rubber_size(scene, radii[g]));
+    const std::size_t end = std::min(radii.size(), g + k_grains_of_one_size);
+    for (std::size_t block = g / k_lanes; block * k_lanes < end; ++block) {
+      size_of_block[block] = static_cast<int>(rubber_sizes.size()) - 1;
+    }
+  }
+}
+
 void Simulation::place_grains() {
   constexpr std::size_t w = k_lanes;
-  const double r = scene.rubber_ball_radius, a = k_grain_lattice * r;
-  balls.rubber_radius = r;
-  rubber_ball_mass = ball_mass(r, scene.rubber.density);
-  bond = bond_parameters(describe_bond(scene, rubber_ball_mass));
-  const MixedElastic mixed = mix(elastic(scene.rubber), elastic(scene.rubber));
-  const double h = r > 0.0 ? hertz_coefficient(mixed, r, r) : 0.0;
-  second_neighbour = {
-      h, mindlin_ratio(mixed), scene.rubber.friction,
-      dashpot_coefficient(scene.contact.normal_damping_ratio, 0.5 * rubber_ball_mass, 1.5 * h),
-      dashpot_coefficient(scene.contact.shear_damping_ratio, 0.5 * rubber_ball_mass, 1.5 * h * mindlin_ratio(mixed))};
-
   const auto blocks = static_cast<std::size_t>(balls.n_blocks);
   lane_inverse_mass.resize(blocks * w);
   ledger.grain_damping.resize(blocks * w);
@@ -102,7 +136,9 @@ void Simulation::place_grains() {
     const bool real = g < balls.n_grains;
     // Unused lanes hold a resting grain far below the scene; nothing moves it.
     const Pose pose = real ? scene.grains[static_cast<std::size_t>(g)] : Pose{{0, 0, -1.0}, {}};
-    lane_inverse_mass[static_cast<std::size_t>(g)] = real ? 1.0 / rubber_ball_mass : 0.0;
+    const RubberSize& size = rubber_of_grain(g);
+    const double a = k_grain_lattice * size.ball_radius;
+    lane_inverse_mass[static_cast<std::size_t>(g)] = real ? 1.0 / size.ball_mass : 0.0;
     const Frame frame = frame_of(pose.orientation);
     for (int slot = 0; slot < k_grain_balls; ++slot) {
       const int i = BallStore::rubber_index(g, slot);
@@ -194,7 +230,7 @@ HertzParameters Simulation::contact_parameters(int ball_i, int ball_j, int wall)
   const MixedElastic mixed =
       mix(elastic(settings_of(scene, mi)), elastic(at_wall ? scene.walls : settings_of(scene, mj)));
   const auto mass_of = [&](int id) {
-    if (id < balls.n_rubber_balls()) return rubber_ball_mass;
+    if (id < balls.n_rubber_balls()) return rubber_of_grain(id / k_grain_balls).ball_mass;
     const int c = clumps.clump_of_pebble[static_cast<std::size_t>(id - balls.n_rubber_balls())];
     return clumps.clumps[static_cast<std::size_t>(c)].mass;
   };
@@ -272,10 +308,12 @@ void Simulation::prepare_rows() {
       contacts.shear_dashpot[row] = p.shear_dashpot;
     }
   };
+  contacts.has_equal_rubber = rubber_sizes.size() == 1;
   contacts.between_rubber_balls = balls.n_grains > 0 ? contact_parameters(0, 0, -1) : HertzParameters{};
   for (std::size_t c = 0; c < contacts.n_pairs(); ++c) {
     const int i = first_of(contacts.pairs[c]), j = second_of(contacts.pairs[c]);
-    fill(c, i, c < contacts.n_rubber_pairs ? contacts.between_rubber_balls : contact_parameters(i, j, -1));
+    const bool is_equal = c < contacts.n_rubber_pairs && contacts.has_equal_rubber;
+    fill(c, i, is_equal ? contacts.between_rubber_balls : contact_parameters(i, j, -1));
     contacts.index_j[c] = balls.index_of_id(j);
     contacts.radius_j[c] = balls.radius_of_id(j);
   }

@@ -64,6 +64,14 @@ struct EnergyReport {
   double boundary_work = 0.0, slip = 0.0, dashpot = 0.0, local_damping = 0.0;
 };
 
+/// Constants of the rubber grains of one size.
+struct RubberSize {
+  double ball_radius = 0.0;  ///< m
+  double ball_mass = 0.0;    ///< kg
+  BondParameters bond;
+  HertzParameters second_neighbour;
+};
+
 /// A plate that moves along its normal to carry a given force (walls/servo.hpp).
 struct PlateServo {
   int wall = -1;              ///< no servo when negative
@@ -106,6 +114,14 @@ class Simulation {
   [[nodiscard]] int n_bodies() const { return balls.n_grains + static_cast<int>(clumps.clumps.size()); }
   /// Body of a ball: grains first, then clumps.
   [[nodiscard]] int body_of_ball(int id) const { return body_of[static_cast<std::size_t>(id)]; }
+  /// Constants of the reference size of rubber: of all grains when there is one size.
+  [[nodiscard]] const RubberSize& rubber() const { return rubber_sizes.front(); }
+  [[nodiscard]] const RubberSize& rubber_of_block(std::size_t block) const {
+    return rubber_sizes[static_cast<std::size_t>(size_of_block[block])];
+  }
+  [[nodiscard]] const RubberSize& rubber_of_grain(int grain) const {
+    return rubber_of_block(static_cast<std::size_t>(grain) / k_lanes);
+  }
   /// Place of the block of a ball in block_top_speed2.
   [[nodiscard]] std::size_t speed_block_of(int id) const;
   /// "rubber grain 12, ball 3" or "clump 7, pebble 1".
@@ -121,11 +137,10 @@ class Simulation {
   ContactTable contacts;
   ContactReferences references;  ///< owners: blocks of grains, then clumps
   GrainHistory grain_history;
-  BondParameters bond;
-  HertzParameters second_neighbour;
+  std::vector<RubberSize> rubber_sizes;  ///< the reference size first, whether or not a grain has it
+  std::vector<int> size_of_block;        ///< [n_blocks] row of rubber_sizes
   FrictionTable friction;
   PlateServo servo;
-  double rubber_ball_mass = 0.0;           ///< kg
   AlignedArray<double> lane_inverse_mass;  ///< [n_blocks * W] 1/kg, of one ball; 0 in unused lanes
   std::vector<WallReaction> reactions;     ///< [n_walls]
   std::vector<Vec3> last_wall_velocity;    ///< [n_walls] before the present step
@@ -148,6 +163,7 @@ class Simulation {
   std::vector<unsigned char> material_of;       ///< [n_balls]
 
  private:
+  void choose_rubber_sizes();
   void place_grains();
   void place_clumps();
 };

@@ -30,19 +30,18 @@ struct Joint {
   double weight_normal = 0.0, weight_shear = 0.0;
 };
 
+/// Of the balls and bonds of one size of rubber grain.
+struct SizeRoots {
+  double inverse_mass_root = 0.0, inverse_inertia_root = 0.0;
+  Weights bond;
+};
+
 constexpr std::size_t k_grains_per_block = 16, k_bodies_per_block = 2048;
 
 class Assembly {
  public:
   Assembly(const Simulation& s, double dt) : s_(s), dt_(dt), n_balls_(s.balls.n_rubber_balls()) {
-    const double r = s.balls.rubber_radius;
-    inverse_mass_root_ = 1.0 / std::sqrt(s.rubber_ball_mass);
-    inverse_inertia_root_ = 1.0 / std::sqrt(0.4 * s.rubber_ball_mass * r * r);
-    const BondParameters& b = s.bond;
-    const double friction_spring = b.spring_friction > 0.0 ? b.linear_shear_stiffness : 0.0;
-    bond_ = {dt * dt * (b.normal_stiffness + b.linear_stiffness) + 2.0 * dt * b.dashpot,
-             dt * dt * (b.shear_stiffness + friction_spring), dt * dt * b.bending_stiffness,
-             dt * dt * b.twisting_stiffness};
+    for (const RubberSize& size : s.rubber_sizes) add_size(size);
     for (std::size_t row = 0; row < s.contacts.n_pairs(); ++row) add_contact(row, false);
     for (std::size_t row = s.contacts.n_pair_rows(); row < s.contacts.n_rows(); ++row) add_contact(row, true);
     for (const Clump& c : s.clumps.clumps) add_inverse_roots(c);
@@ -79,6 +78,20 @@ class Assembly {
                            : s_.clumps.clumps[static_cast<std::size_t>(body - n_balls_)].position;
   }
 
+  void add_size(const RubberSize& size) {
+    const double r = size.ball_radius, square = dt_ * dt_;
+    const BondParameters& b = size.bond;
+    const double friction_spring = b.spring_friction > 0.0 ? b.linear_shear_stiffness : 0.0;
+    sizes_.push_back({1.0 / std::sqrt(size.ball_mass),
+                      1.0 / std::sqrt(0.4 * size.ball_mass * r * r),
+                      {square * (b.normal_stiffness + b.linear_stiffness) + 2.0 * dt_ * b.dashpot,
+                       square * (b.shear_stiffness + friction_spring), square * b.bending_stiffness,
+                       square * b.twisting_stiffness}});
+  }
+  [[nodiscard]] std::size_t size_of(std::size_t grain) const {
+    return static_cast<std::size_t>(s_.size_of_block[grain / k_lanes]);
+  }
+
   void add_contact(std::size_t row, bool is_wall) {
     const ContactTable& t = s_.contacts;
     const ContactState& state = t.state[row];
@@ -111,7 +124,10 @@ class Assembly {
   }
 
   [[nodiscard]] Twist scaled(std::size_t b, const Twist& t) const {
-    if (b < static_cast<std::size_t>(n_balls_)) return {t.along * inverse_mass_root_, t.about * inverse_inertia_root_};
+    if (b < static_cast<std::size_t>(n_balls_)) {
+      const SizeRoots& size = sizes_[size_of(b / k_grain_balls)];
+      return {t.along * size.inverse_mass_root, t.about * size.inverse_inertia_root};
+    }
     const std::size_t c = b - static_cast<std::size_t>(n_balls_);
     const auto& root = clump_roots_[c];
     return {t.along * (1.0 / std::sqrt(s_.clumps.clumps[c].mass)),
@@ -144,12 +160,14 @@ class Assembly {
       position[slot] = s_.balls.position(BallStore::rubber_index(grain, slot));
       force_[first + static_cast<std::size_t>(slot)] = {};
     }
-    const double r = s_.balls.rubber_radius;
+    const RubberSize& size = s_.rubber_of_grain(grain);
+    const Weights& bond = sizes_[size_of(static_cast<std::size_t>(grain))].bond;
+    const double r = size.ball_radius;
     for (const SlotPair& p : k_bonds_of_grain) {
       const Vec3 branch = position[p.j] - position[p.i];
       const double length = norm(branch);
-      Weights w = bond_;
-      if (s_.scene.bond.hertz_contact && length < 2.0 * r) add_hertz(2.0 * r - length, w);
+      Weights w = bond;
+      if (s_.scene.bond.hertz_contact && length < 2.0 * r) add_hertz(size.second_neighbour, 2.0 * r - length, w);
       join(first + p.i, first + p.j, branch * (1.0 / length), 0.5 * length, w);
     }
     for (const SlotPair& p : k_second_neighbours_of_grain) {
@@ -158,14 +176,13 @@ class Assembly {
       if (squared >= 4.0 * r * r) continue;
       const double length = std::sqrt(squared);
       Weights w;
-      add_hertz(2.0 * r - length, w);
+      add_hertz(size.second_neighbour, 2.0 * r - length, w);
       join(first + p.i, first + p.j, branch * (1.0 / length), 0.5 * length, w);
     }
   }
 
   /// Hertz contact of two balls of a grain.
-  void add_hertz(double overlap, Weights& w) const {
-    const HertzParameters& p = s_.second_neighbour;
+  void add_hertz(const HertzParameters& p, double overlap, Weights& w) const {
     const double k = 1.5 * p.hertz * std::sqrt(overlap), fourth_root = std::sqrt(std::sqrt(overlap));
     w.normal += dt_ * dt_ * k + 2.0 * dt_ * p.normal_dashpot * fourth_root;
     w.shear += dt_ * dt_ * k * p.shear_ratio + 2.0 * dt_ * p.shear_dashpot * fourth_root;
@@ -186,9 +203,8 @@ class Assembly {
 
   const Simulation& s_;
   double dt_;
-  int n_balls_;  // of rubber grains
-  double inverse_mass_root_ = 0.0, inverse_inertia_root_ = 0.0;
-  Weights bond_;
+  int n_balls_;                   // of rubber grains
+  std::vector<SizeRoots> sizes_;  // of Simulation::rubber_sizes
   std::vector<Joint> contacts_;
   std::vector<std::array<Vec3, 3>> clump_roots_;
   Twists moved_, force_;

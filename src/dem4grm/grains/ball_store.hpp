@@ -52,7 +52,7 @@ struct BallStore {
   int n_pebbles = 0;  ///< of all clumps
 
   AlignedArray<double> state;
-  double rubber_radius = 0.0;         ///< m, of every rubber ball
+  std::vector<double> grain_radius;   ///< [n_grains] m, of the balls of a rubber grain
   std::vector<double> pebble_radius;  ///< [n_pebbles] m
 
   void allocate(int grains, int pebbles) {
@@ -60,6 +60,7 @@ struct BallStore {
     n_pebbles = pebbles;
     n_blocks = (grains + k_width - 1) / k_width;
     state.resize(static_cast<std::size_t>(pebble_index((pebbles + k_width - 1) / k_width * k_width)));
+    grain_radius.resize(static_cast<std::size_t>(grains));
     pebble_radius.resize(static_cast<std::size_t>(pebbles));
   }
 
@@ -105,7 +106,8 @@ struct BallStore {
   /// Radius of the ball with that id, m.
   [[nodiscard]] double radius_of_id(int id) const {
     const int pebble = id - n_rubber_balls();
-    return pebble < 0 ? rubber_radius : pebble_radius[static_cast<std::size_t>(pebble)];
+    return pebble < 0 ? grain_radius[static_cast<std::size_t>(id / k_grain_balls)]
+                      : pebble_radius[static_cast<std::size_t>(pebble)];
   }
 
  private:

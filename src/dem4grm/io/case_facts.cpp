@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "dem4grm/engine/time_step.hpp"
-#include "dem4grm/grains/rubber_size.hpp"
 #include "dem4grm/io/output_folder.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/grain_compression.hpp"
@@ -56,8 +55,7 @@ void describe_grains(const DirectShearCase& test, const GrainList& grains, CaseF
   }
   const double total = grains.solid_volume();
   if (grains.rubber_count > 0) {
-    size_times_volume += grains.rubber_volume *
-                         rubber_grain_size(grains.rubber_ball_radius, test.rubber.density, test.rubber_solid_density);
+    size_times_volume += grains.rubber_volume * grains.rubber_mean_size;
   }
   facts.clumps = static_cast<int>(grains.gravel.size());
   facts.rubber_grains = grains.rubber_count;

@@ -132,7 +132,8 @@ void write_bonds(const Handle& frame, const Simulation& s) {
   const RubberState rubber = rubber_state_of(s);
   const Handle group = hdf5::create_group(frame, "bonds");
   hdf5::write_attribute(group, "bonds_per_grain", static_cast<std::int64_t>(k_grain_bonds));
-  hdf5::write_attribute(group, "rest_length", rubber.rest_length);
+  hdf5::write_dataset(group, {"rest_length", "m", "distance of bonded ball centres at rest, of each grain"},
+                      rubber.rest_length);
   hdf5::write_dataset(group, {"length", "m", "distance of the two ball centres"}, rubber.bond_length);
   hdf5::write_dataset(group, {"normal_force", "N", "without the dashpot; compression positive"},
                       rubber.bond_normal_force);

@@ -130,7 +130,8 @@ RubberState read_rubber(const Handle& frame, std::size_t n_grains) {
   if (out.ball_position.size() < n_grains * k_grain_balls) throw IoError("balls/position is too short");
   out.ball_position.resize(n_grains * k_grain_balls);
   const Handle bonds = hdf5::open_group(frame, "bonds");
-  out.rest_length = hdf5::read_number_attribute(bonds, "rest_length");
+  out.rest_length = hdf5::read_dataset(bonds, "rest_length");
+  expect_rows(out.rest_length.size(), n_grains, "bonds/rest_length");
   out.bond_length = hdf5::read_dataset(bonds, "length");
   out.bond_normal_force = hdf5::read_dataset(bonds, "normal_force");
   out.bond_shear_force = hdf5::read_dataset(bonds, "shear_force");

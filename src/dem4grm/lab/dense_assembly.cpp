@@ -45,6 +45,7 @@ DenseAssembly make_dense_assembly(const GrainList& grains, const Scene& material
   out.scene = materials;
   out.scene.shapes = grains.shapes;
   out.scene.rubber_ball_radius = grains.rubber_ball_radius;
+  out.scene.rubber_ball_radii = grains.rubber_radii;
   // The two kinds are spread evenly over the places.
   std::size_t gravel = 0, rubber = 0;
   for (std::size_t k = 0; k < n; ++k) {

@@ -41,11 +41,11 @@ double triple(const Vec3& a, const Vec3& b, const Vec3& c) { return dot(a, cross
 
 RubberState rubber_state_of(const Simulation& s) {
   RubberState out;
-  out.rest_length = 2.0 * s.scene.rubber_ball_radius;
   for (int id = 0; id < s.balls.n_rubber_balls(); ++id) {
     out.ball_position.push_back(s.balls.position(s.balls.index_of_id(id)));
   }
   for (int g = 0; g < s.balls.n_grains; ++g) {
+    out.rest_length.push_back(s.rubber_of_grain(g).bond.rest_length);
     for (int b = 0; b < k_grain_bonds; ++b) {
       const BondReading bond = read_bond(s, g, b);
       out.bond_length.push_back(bond.length);
@@ -115,19 +115,19 @@ RubberReport rubber_report(const RubberState& state) {
   double bonds = 0.0;
   for (std::size_t b = 0; b < state.bond_length.size(); ++b) {
     if (state.is_broken[b] != 0) continue;
-    bond_strain.push_back(1.0 - state.bond_length[b] / state.rest_length);
+    bond_strain.push_back(1.0 - state.bond_length[b] / state.rest_length[b / k_grain_bonds]);
     out.bond_force += state.bond_normal_force[b];
     out.bond_force_size += std::fabs(state.bond_normal_force[b]);
     out.bond_moment += state.bond_moment[b];
     bonds += 1.0;
   }
-  const double side = 4.0 * state.rest_length / std::numbers::sqrt3, rest_volume = side * side * side;
   const std::size_t n_grains = state.n_grains();
   for (std::size_t g = 0; g < n_grains; ++g) {
+    const double side = 4.0 * state.rest_length[g] / std::numbers::sqrt3, rest_volume = side * side * side;
     const auto balls = std::span(state.ball_position).subspan(g * k_grain_balls, k_grain_balls);
     volume_strain.push_back(1.0 - grain_volume(balls) / rest_volume);
     aspect_ratio.push_back(grain_aspect_ratio(balls));
-    out.closed_second_neighbours += closed_second_neighbours(balls, state.rest_length);
+    out.closed_second_neighbours += closed_second_neighbours(balls, state.rest_length[g]);
   }
   out.bond_force /= bonds;
   out.bond_force_size /= bonds;

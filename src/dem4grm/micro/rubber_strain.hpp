@@ -13,7 +13,7 @@ namespace dem {
 
 /// The inside of the rubber grains as plain lists, grain by grain.
 struct RubberState {
-  double rest_length = 0.0;               ///< m, of every bond
+  std::vector<double> rest_length;        ///< [n_grains] m, of the bonds of the grain
   std::vector<Vec3> ball_position;        ///< [n_grains * 35] m
   std::vector<double> bond_length;        ///< [n_grains * 64] m
   std::vector<double> bond_normal_force;  ///< [n_grains * 64] N, without the dashpot, compression positive

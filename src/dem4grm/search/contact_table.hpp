@@ -46,7 +46,8 @@ struct ContactTable {
   AlignedArray<double> hertz, shear_ratio, friction;   ///< laws/hertz_mindlin.hpp
   AlignedArray<double> normal_dashpot, shear_dashpot;  ///< empty when dashpots are off
 
-  HertzParameters between_rubber_balls;  ///< constants of all pairs of rubber balls
+  bool has_equal_rubber = true;          ///< all rubber balls have one radius
+  HertzParameters between_rubber_balls;  ///< constants of all pairs of rubber balls, when they are equal
 
   AlignedArray<ContactState> state;                      ///< history and result of the last evaluation
   AlignedArray<double> damping_x, damping_y, damping_z;  ///< N, shear dashpot on i; empty when dashpots are off
@@ -55,8 +56,10 @@ struct ContactTable {
   [[nodiscard]] std::size_t n_pair_rows() const {
     return (pairs.size() + k_contact_batch - 1) / k_contact_batch * k_contact_batch;
   }
-  /// Rows of whole batches in which every pair is one of two rubber balls.
-  [[nodiscard]] std::size_t n_equal_rows() const { return n_rubber_pairs / k_contact_batch * k_contact_batch; }
+  /// Rows of whole batches in which every pair is one of two equal rubber balls.
+  [[nodiscard]] std::size_t n_equal_rows() const {
+    return has_equal_rubber ? n_rubber_pairs / k_contact_batch * k_contact_batch : 0;
+  }
   [[nodiscard]] std::size_t n_rows() const { return n_pair_rows() + wall_pairs.size(); }
 
   [[nodiscard]] const Vec3& shear(std::size_t row) const { return state[row].shear; }

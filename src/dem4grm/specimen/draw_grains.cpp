@@ -16,6 +16,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
+#include "dem4grm/engine/scene.hpp"
 #include "dem4grm/grains/rubber_size.hpp"
 #include "dem4grm/specimen/grading.hpp"
 #include "dem4grm/specimen/void_ratio_defaults.hpp"
@@ -23,8 +24,8 @@
 namespace dem {
 namespace {
 
-constexpr double k_most_grains = 1e7;          // a slip in a unit must not fill the memory
-constexpr double k_rubber_size_spread = 0.10;  // of D50; wider gradings would need grains of several sizes
+constexpr double k_most_grains = 1e7;       // a slip in a unit must not fill the memory
+constexpr double k_one_size_spread = 0.06;  // of D50; wider gradings of rubber get grains of several sizes
 
 double cube(double x) { return x * x * x; }
 
@@ -77,17 +78,6 @@ void add_grading_problems(std::vector<std::string>& problems, const char* which,
   }
 }
 
-void check_rubber_spread(std::vector<std::string>& problems, const Grading& grading) {
-  const double middle = d50(grading);
-  const double allowed = k_rubber_size_spread * middle * (1.0 + 1e-9);
-  if (largest_size(grading) - middle > allowed || middle - smallest_size(grading) > allowed) {
-    problems.push_back(
-        fmt::format("rubber grading: sizes from {:.3f} to {:.3f} mm around D50 = {:.3f} mm; a size distribution of "
-                    "rubber is not supported, all sizes must lie within 10 % of D50",
-                    smallest_size(grading) * 1e3, largest_size(grading) * 1e3, middle * 1e3));
-  }
-}
-
 void check_counts(std::vector<std::string>& problems, const SpecimenSettings& settings) {
   const double content = settings.rubber_content;
   const int clumps = settings.gravel_clumps.value_or(0), grains = settings.rubber_grains.value_or(0);
@@ -130,9 +120,7 @@ void check_settings(const SpecimenSettings& settings, const BoxSettings& box) {
   }
   check_shapes(problems, settings);
   if (contents.has_rubber) {
-    const std::size_t before = problems.size();
     add_grading_problems(problems, "rubber", settings.rubber_grading);
-    if (problems.size() == before) check_rubber_spread(problems, settings.rubber_grading);
   }
   const double box_volume = box.length * box.width * box.height;
   if (!(std::isfinite(box_volume) && box.length > 0.0 && box.width > 0.0 && box.height > 0.0)) {
@@ -226,22 +214,25 @@ double walk_count(const Grading& grading, const std::vector<ClumpTemplate>& shap
   return start;
 }
 
-/// Exactly so many grains that cover the mass axis: bisection on the total volume, on which the end of the last share
-/// depends in one direction only.
-std::vector<GravelGrain> walk_exact_count(const Grading& grading, const std::vector<ClumpTemplate>& shapes, int count,
-                                          ShapeDealer dealer) {
-  std::vector<GravelGrain> grains(static_cast<std::size_t>(count));
+/// Gives sizes to the grains so that together they cover the mass axis: bisection on the total volume, on which the end
+/// of the last share depends in one direction only.
+void cover_mass_axis(const Grading& grading, const std::vector<ClumpTemplate>& shapes, std::span<GravelGrain> grains) {
   double unit_volume = 0.0;
-  for (GravelGrain& grain : grains) {
-    grain.shape = dealer.next();
-    unit_volume += shapes[static_cast<std::size_t>(grain.shape)].volume;
-  }
+  for (const GravelGrain& grain : grains) unit_volume += shapes[static_cast<std::size_t>(grain.shape)].volume;
   double low = 0.5 * unit_volume * cube(smallest_size(grading));  // the last share ends beyond 1
   double high = 2.0 * unit_volume * cube(largest_size(grading));  // and before 1
   for (double middle = 0.5 * (low + high); low < middle && middle < high; middle = 0.5 * (low + high)) {
     (walk_count(grading, shapes, middle, grains) > 1.0 ? low : high) = middle;
   }
   walk_count(grading, shapes, high, grains);
+}
+
+/// Exactly so many grains that cover the mass axis.
+std::vector<GravelGrain> walk_exact_count(const Grading& grading, const std::vector<ClumpTemplate>& shapes, int count,
+                                          ShapeDealer dealer) {
+  std::vector<GravelGrain> grains(static_cast<std::size_t>(count));
+  for (GravelGrain& grain : grains) grain.shape = dealer.next();
+  cover_mass_axis(grading, shapes, grains);
   return grains;
 }
 
@@ -279,19 +270,85 @@ void draw_gravel(GrainList& list, const SpecimenSettings& settings, double volum
   }
 }
 
-void draw_rubber(GrainList& list, const SpecimenSettings& settings, double volume, double ball_density,
-                 double solid_density) {
-  list.rubber_ball_radius = rubber_ball_radius(d50(settings.rubber_grading), ball_density, solid_density);
-  list.rubber_solid_volume = rubber_solid_volume(list.rubber_ball_radius, ball_density, solid_density);
-  const double count =
-      settings.rubber_grains ? *settings.rubber_grains : std::floor(volume / list.rubber_solid_volume + 0.5);
+bool is_of_one_size(const Grading& grading) {
+  const double middle = d50(grading), allowed = k_one_size_spread * middle * (1.0 + 1e-9);
+  return largest_size(grading) - middle <= allowed && middle - smallest_size(grading) <= allowed;
+}
+
+void check_rubber_count(double count, int least) {
   if (count > k_most_grains) {
     throw InputError(fmt::format("grains of the specimen: the box would hold {:.3g} rubber grains, more than {:.0f}",
                                  count, k_most_grains));
   }
-  if (count < 1.0) throw InputError("grains of the specimen: the box is too small for one rubber grain");
-  list.rubber_count = static_cast<int>(count);
-  list.rubber_volume = count * list.rubber_solid_volume;
+  if (count < least) {
+    throw InputError(least == 1
+                         ? std::string("grains of the specimen: the box is too small for one rubber grain")
+                         : fmt::format("grains of the specimen: the box is too small for {} rubber grains, which "
+                                       "a rubber grading of several sizes needs",
+                                       least));
+  }
+}
+
+/// So many runs of rubber grains of one size that cover the mass axis, the last one of `rest` grains when rest > 0. A run
+/// is walked like one clump whose volume is that of all its grains: a rubber grain of size d has the solid volume d^3.
+std::vector<GravelGrain> rubber_runs(const Grading& grading, std::size_t whole_runs, int rest) {
+  std::vector<ClumpTemplate> runs(2);
+  runs[0].volume = k_grains_of_one_size;
+  runs[1].volume = rest;
+  std::vector<GravelGrain> sizes(whole_runs);
+  if (rest > 0) sizes.push_back({1, 0.0});
+  cover_mass_axis(grading, runs, sizes);
+  return sizes;
+}
+
+/// The number of whole runs whose volume is nearest to the one that is wanted; at least one.
+std::vector<GravelGrain> rubber_runs_of_volume(const Grading& grading, double volume) {
+  const auto miss = [&](const std::vector<GravelGrain>& runs) {
+    double sum = 0.0;
+    for (const GravelGrain& run : runs) sum += k_grains_of_one_size * cube(run.sieve_size);
+    return std::abs(sum - volume);
+  };
+  std::vector<ClumpTemplate> run(1);
+  run[0].volume = k_grains_of_one_size;
+  const std::vector<double> weight(1, 1.0);
+  const std::size_t n = walk_volume(grading, run, volume, ShapeDealer(run, weight, 0)).size();
+  std::vector<GravelGrain> more = rubber_runs(grading, n + 1, 0);
+  if (n == 0) return more;
+  std::vector<GravelGrain> fewer = rubber_runs(grading, n, 0);
+  return miss(more) < miss(fewer) ? more : fewer;
+}
+
+void draw_rubber(GrainList& list, const SpecimenSettings& settings, double volume, double ball_density,
+                 double solid_density) {
+  const Grading& grading = settings.rubber_grading;
+  list.rubber_ball_radius = rubber_ball_radius(d50(grading), ball_density, solid_density);
+  list.rubber_solid_volume = rubber_solid_volume(list.rubber_ball_radius, ball_density, solid_density);
+  list.rubber_mean_size = rubber_grain_size(list.rubber_ball_radius, ball_density, solid_density);
+  const double count =
+      settings.rubber_grains ? *settings.rubber_grains : std::floor(volume / list.rubber_solid_volume + 0.5);
+  if (is_of_one_size(grading)) {
+    check_rubber_count(count, 1);
+    list.rubber_count = static_cast<int>(count);
+    list.rubber_volume = count * list.rubber_solid_volume;
+    return;
+  }
+  check_rubber_count(volume / cube(smallest_size(grading)), 1);
+  check_rubber_count(count, settings.rubber_grains ? 1 : k_grains_of_one_size);
+  double size_times_volume = 0.0;
+  const int wanted = settings.rubber_grains.value_or(0), rest = wanted % k_grains_of_one_size;
+  const auto whole_runs = static_cast<std::size_t>(wanted / k_grains_of_one_size);
+  const std::vector<GravelGrain> runs =
+      settings.rubber_grains ? rubber_runs(grading, whole_runs, rest) : rubber_runs_of_volume(grading, volume);
+  for (const GravelGrain& run : runs) {
+    const int grains = run.shape == 1 ? rest : k_grains_of_one_size;
+    const double size = run.sieve_size;
+    list.rubber_radii.insert(list.rubber_radii.end(), static_cast<std::size_t>(grains),
+                             rubber_ball_radius(size, ball_density, solid_density));
+    list.rubber_volume += grains * cube(size);
+    size_times_volume += grains * cube(size) * size;
+  }
+  list.rubber_count = static_cast<int>(list.rubber_radii.size());
+  list.rubber_mean_size = size_times_volume / list.rubber_volume;
 }
 
 }  // namespace

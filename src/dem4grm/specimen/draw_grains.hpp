@@ -13,7 +13,10 @@ namespace dem {
 /// Draws the grains of a specimen.
 ///
 ///   solid volume = length * width * height / (1 + expected void ratio)
-///   rubber       grains of one size, the D50 of its grading; count = nearest integer of VRC * solid volume / V_s
+///   rubber       a grading within 6 % of its D50: grains of that size, count = nearest integer of VRC * solid volume /
+///                V_s. A wider one: walks along its mass axis as gravel does, with runs of eight grains of one size in
+///                the place of single grains, since the engine takes rubber by the block; as many whole runs as come
+///                nearest to the volume
 ///   gravel       walks along the mass axis of its grading: each grain covers its own share of the mass and has the
 ///                size at the middle of that share, so few grains follow the curve as well as many do; it stops where
 ///                the middle of the next share would lie beyond the end
@@ -24,8 +27,7 @@ namespace dem {
 /// on the seed in shapes and order only, by the streams grain_shape and grain_order.
 ///
 /// Densities in kg/m3, of the balls of a rubber grain and of solid rubber; only their ratio matters. Throws InputError
-/// that lists every problem: contents or counts that contradict each other, unusable gradings, a rubber grading that is
-/// wider than +-10 % of its D50, unknown shapes, shares that do not fit them, no grains or too many.
+/// that lists every problem: contents or counts that contradict each other, unusable gradings, unknown shapes, shares that do not fit them, no grains or too many.
 GrainList draw_grains(const SpecimenSettings& settings, const BoxSettings& box, double ball_density,
                       double solid_density, std::uint64_t seed);
 

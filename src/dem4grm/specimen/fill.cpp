@@ -50,7 +50,7 @@ Scene clump_scene(const GrainList& grains, const Scene& materials) {
   const int rubber_shape = static_cast<int>(scene.shapes.size());
   scene.shapes.push_back(rigid_rubber_grain());
   for (int g = 0; g < grains.rubber_count; ++g) {
-    scene.clumps.push_back({rubber_shape, grains.rubber_ball_radius, {}, k_rubber});
+    scene.clumps.push_back({rubber_shape, grains.ball_radius_of_rubber(g), {}, k_rubber});
   }
   return scene;
 }

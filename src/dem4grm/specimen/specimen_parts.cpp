@@ -3,7 +3,6 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/space_curve.hpp"
-#include "dem4grm/grains/rubber_size.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -14,11 +13,8 @@ void describe(const GrainList& g, const SpecimenOrder& order, SpecimenReport& re
     const double d = grain.sieve_size;
     size += g.shapes[static_cast<std::size_t>(grain.shape)].volume * d * d * d * d;
   }
-  const double rubber_size =
-      g.rubber_count > 0 ? rubber_grain_size(g.rubber_ball_radius, order.materials.rubber.density, order.solid_density)
-                         : 0.0;
   const double total = g.solid_volume();
-  report.mean_size = (size + g.rubber_volume * rubber_size) / total;
+  report.mean_size = (size + g.rubber_volume * g.rubber_mean_size) / total;
   report.mean_density =
       (g.gravel_volume * order.materials.gravel.density + g.rubber_volume * order.solid_density) / total;
   report.rubber_content = g.rubber_content();
@@ -38,7 +34,8 @@ void renumber_gravel(GrainList& grains, const std::vector<int>& order) {
 
 std::vector<int> number_along_curve(GrainList& grains, Fill& fill) {
   const auto position_of = [](const Pose& pose) { return pose.position; };
-  sort_along_curve(fill.rubber, position_of);
+  // Grains of several sizes keep their runs of equal size.
+  if (grains.rubber_radii.empty()) sort_along_curve(fill.rubber, position_of);
   std::vector<int> order = sort_along_curve(fill.gravel, position_of);
   renumber_gravel(grains, order);
   return order;
@@ -47,6 +44,7 @@ std::vector<int> number_along_curve(GrainList& grains, Fill& fill) {
 Scene scene_of(const SpecimenOrder& order, const GrainList& grains, const Fill& fill) {
   Scene scene = order.materials;
   scene.rubber_ball_radius = grains.rubber_ball_radius;
+  scene.rubber_ball_radii = grains.rubber_radii;
   scene.grains = fill.rubber;
   scene.shapes = grains.shapes;
   for (std::size_t k = 0; k < grains.gravel.size(); ++k) {

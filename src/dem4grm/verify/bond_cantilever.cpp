@@ -141,7 +141,7 @@ std::vector<TipMotion> rows_in_engine(BondSettings bond, const std::vector<Row>&
     start.push_back(s.balls.position(loads.back().ball));
     longest = std::max(longest, rows[g].bonds);
   }
-  const Settling settle = settling(bond, longest, s.rubber_ball_mass);
+  const Settling settle = settling(bond, longest, s.rubber().ball_mass);
   s.set_time_step(settle.time_step);
   for (int k = 0; k < settle.steps; ++k) step_with_loads(s, loads, settle.kept);
   std::vector<TipMotion> out;
@@ -166,7 +166,7 @@ TipMotion vertex_in_engine(BondSettings bond, Load load) {
   }
   loads.push_back({BallStore::rubber_index(0, k_grain_balls - 1), {}, {}, true});
   const Vec3 start = s.balls.position(tip);
-  const Settling settle = settling(bond, 1, s.rubber_ball_mass);
+  const Settling settle = settling(bond, 1, s.rubber().ball_mass);
   s.set_time_step(settle.time_step);
   for (int k = 0; k < settle.steps; ++k) step_with_loads(s, loads, settle.kept);
   return tip_motion(s, tip, start, load, size);

@@ -75,7 +75,7 @@ Swing swinging_rubber_ball(double damping, bool sides) {
   return {Simulation(scene), ball, centre, plate_stiffness(scene.rubber, scene.walls, scene.rubber_ball_radius)};
 }
 
-double mass_of(const Swing& w) { return w.s.clumps.clumps.empty() ? w.s.rubber_ball_mass : clump(w.s, 0).mass; }
+double mass_of(const Swing& w) { return w.s.clumps.clumps.empty() ? w.s.rubber().ball_mass : clump(w.s, 0).mass; }
 
 void throw_ball(Swing& w, const Vec3& velocity, const Vec3& spin) {
   if (!w.s.clumps.clumps.empty()) {

@@ -16,7 +16,7 @@ inline void set_orientation(Simulation& s, int i, const Quaternion& q) { s.balls
 
 /// Moment of inertia of a rubber ball, kg m2.
 inline double ball_inertia(const Simulation& s) {
-  return 0.4 * s.rubber_ball_mass * s.scene.rubber_ball_radius * s.scene.rubber_ball_radius;
+  return 0.4 * s.rubber().ball_mass * s.scene.rubber_ball_radius * s.scene.rubber_ball_radius;
 }
 
 /// One grain with the cube axes of the world.
@@ -69,7 +69,7 @@ inline void step_with_loads(Simulation& s, const std::vector<OutsideLoad>& loads
   before.reserve(loads.size());
   for (const OutsideLoad& l : loads) before.push_back({s.balls.position(l.ball), orientation_of(s, l.ball)});
   s.step();
-  const double dt = s.time_step(), per_mass = dt / s.rubber_ball_mass, per_inertia = dt / ball_inertia(s);
+  const double dt = s.time_step(), per_mass = dt / s.rubber().ball_mass, per_inertia = dt / ball_inertia(s);
   for (std::size_t k = 0; k < loads.size(); ++k) {
     const OutsideLoad& l = loads[k];
     const double share = l.is_held ? 0.0 : kept;
@@ -121,7 +121,7 @@ class LedGrain {
     }
     s_.step();
     std::array<BallLoad, k_grain_balls> out;
-    const double per_speed = s_.rubber_ball_mass / s_.time_step(), per_spin = ball_inertia(s_) / s_.time_step();
+    const double per_speed = s_.rubber().ball_mass / s_.time_step(), per_spin = ball_inertia(s_) / s_.time_step();
     for (int slot = 0; slot < k_grain_balls; ++slot) {
       const auto k = static_cast<std::size_t>(slot);
       const int i = index(slot);

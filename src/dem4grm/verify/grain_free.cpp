@@ -45,7 +45,7 @@ Totals totals(const Simulation& s) {
   Totals t;
   for (int slot = 0; slot < k_grain_balls; ++slot) {
     const int i = BallStore::rubber_index(0, slot);
-    const Vec3 p = s.balls.velocity(i) * s.rubber_ball_mass;
+    const Vec3 p = s.balls.velocity(i) * s.rubber().ball_mass;
     t.momentum += p;
     t.angular_momentum +=
         cross(s.balls.position(i) - s.scene.grains[0].position, p) + s.balls.spin(i) * ball_inertia(s);
@@ -61,7 +61,7 @@ double bond_energy_now(const Simulation& s, const Simulation& next) {
   double sum = 0.0;
   for (int k = 0; k < k_grain_bonds; ++k) {
     const BondReading now = read_bond(s, 0, k), later = read_bond(next, 0, k);
-    sum += bond_energy(s.bond, now.length, later.shear, later.moment, now.normal);
+    sum += bond_energy(s.rubber().bond, now.length, later.shear, later.moment, now.normal);
   }
   return sum;
 }

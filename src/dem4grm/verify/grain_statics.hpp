@@ -45,7 +45,7 @@ inline Eigen::VectorXd engine_loads(const Scene& scene, const Eigen::VectorXd& u
   }
   const Simulation before = s;
   s.step();
-  const double m = s.rubber_ball_mass, r = scene.rubber_ball_radius;
+  const double m = s.rubber().ball_mass, r = scene.rubber_ball_radius;
   Eigen::VectorXd loads(k_grain_dofs);
   for (int slot = 0; slot < k_grain_balls; ++slot) {
     const int i = BallStore::rubber_index(0, slot);

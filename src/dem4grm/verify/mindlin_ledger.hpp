@@ -69,7 +69,7 @@ class MindlinLedger {
       const double* h = s.grain_history.second_neighbour_shear.data() +
                         ((grain / w) * k_grain_second_neighbours + q) * 3 * w + grain % w;
       add(s, now, pair_key(g * k_grain_balls + slots.i, g * k_grain_balls + slots.j), false,
-          stiffness_of(s.second_neighbour.hertz * s.second_neighbour.shear_ratio, overlaps_[k]),
+          stiffness_of(s.rubber().second_neighbour.hertz * s.rubber().second_neighbour.shear_ratio, overlaps_[k]),
           {h[0], h[w], h[2 * w]});
       overlaps_[k] = 2.0 * s.scene.rubber_ball_radius - norm(s.balls.position(BallStore::rubber_index(g, slots.j)) -
                                                              s.balls.position(BallStore::rubber_index(g, slots.i)));

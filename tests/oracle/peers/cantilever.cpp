@@ -71,7 +71,7 @@ void push(Simulation& s, int slot, const Vec3& velocity, const Vec3& spin) {
 /// Steps with the loads until rest. Velocities are damped by hand: local damping would also act on the loads.
 void relax(Simulation& s, const Cantilever& c, const Json& p) {
   const double dt = p.at("time_step"), loss = dt * p.at("damping_rate").get<double>();
-  const double mass = s.rubber_ball_mass, r = s.scene.rubber_ball_radius, inertia = 0.4 * mass * r * r;
+  const double mass = s.rubber().ball_mass, r = s.scene.rubber_ball_radius, inertia = 0.4 * mass * r * r;
   const Simulation start = s;
   s.set_time_step(dt);
   const int steps = p.at("steps");

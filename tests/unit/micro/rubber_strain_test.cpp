@@ -68,14 +68,14 @@ TEST(GrainShape, SecondNeighboursCloseAtThirteenPercent) {
 
 TEST(RubberReport, AveragesOverBondsAndGrains) {
   RubberState state;
-  state.rest_length = 2 * k_radius;
-  for (const double f : {0.9, 1.0}) {
+  for (const double f : {0.9, 1.2}) {  // the second grain is a larger one at rest
     const auto balls = grain_after([f](const Vec3& x) { return x * f; });
+    state.rest_length.push_back(2.0 * k_radius * std::max(1.0, f));
     state.ball_position.insert(state.ball_position.end(), balls.begin(), balls.end());
   }
   // Strains 0.1 in the first grain, 0 in the second, and one bond torn: it counts for nothing.
   for (int b = 0; b < 128; ++b) {
-    state.bond_length.push_back((b < 64 ? 0.9 : 1.0) * state.rest_length);
+    state.bond_length.push_back(b < 64 ? 0.9 * state.rest_length[0] : state.rest_length[1]);
     state.bond_normal_force.push_back(b % 2 == 0 ? 3.0 : -1.0);
     state.bond_shear_force.push_back(0.0);
     state.bond_moment.push_back(2e-6);

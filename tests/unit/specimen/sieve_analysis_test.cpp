@@ -169,6 +169,13 @@ TEST(SieveAnalysis, FullSizeSpecimensReturnTheirGradings) {
   EXPECT_LT(mixture.table.together.largest_difference(), 0.005);
 }
 
+TEST(SieveAnalysis, RubberOfManySizesReturnsItsGrading) {
+  const std::vector<Override> changes{{"specimen.rubber_grading", "../gradings/rubber-wide.csv"}};
+  const Analysis mixture = analysis_of("vrc040-060kPa", changes);
+  EXPECT_LT(mixture.table.gravel.largest_difference(), 0.005);
+  EXPECT_LT(mixture.table.rubber.largest_difference(), 0.01);  // runs of eight grains
+}
+
 TEST(SieveAnalysis, SmallNumbersReturnTheirGradingsToo) {
   for (const char* count : {"30", "100", "400"}) {
     for (const char* file : {"gravel-narrow.csv", "gravel-rounded.csv", "gravel-wide.csv"}) {
