@@ -29,8 +29,7 @@ TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
 }
 
 TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
-  for (const std::vector<std::string>& verb :
-       std::vector<std::vector<std::string>>{
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
            {}, {"new"}, {"check"}, {"specimen"}, {"run"}, {"info"}, {"sieve"}, {"micro"}, {"verify"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");

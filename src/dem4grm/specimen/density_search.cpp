@@ -13,10 +13,10 @@
 namespace dem {
 namespace {
 
-constexpr double k_bend = 0.1;             // friction at which about half of the way is done
-constexpr double k_friction_step = 1e-4;   // trials are round numbers, which can be typed into a case
-constexpr double k_spacing = 0.02;         // of trials over their friction, and at least
-constexpr double k_least_spacing = 0.001;  // this: enough for another specimen
+constexpr double k_bend = 0.1;              // friction at which about half of the way is done
+constexpr double k_friction_step = 1e-4;    // trials are round numbers, which can be typed into a case
+constexpr double k_spacing = 0.005;         // of trials over their friction, and at least
+constexpr double k_least_spacing = 0.0003;  // this: enough for another specimen
 
 double bent(double friction) { return friction / (friction + k_bend); }
 double unbent(double x) { return k_bend * x / (1.0 - x); }

@@ -7,6 +7,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/simulation_state.hpp"
+#include "dem4grm/specimen/branch_words.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 #include "dem4grm/specimen/specimen_parts.hpp"
@@ -153,7 +154,7 @@ class Preparation {
     r.branches.push_back({r.preparation_friction, out_.load.stress, rest_.void_ratio, station_steps_});
     r.branch_steps += station_steps_;
     const std::optional<double> next = next_friction(r.branches, target_);
-    tell_branch();
+    if (hooks_.note) hooks_.note(branch_note(r, is_fetched_));
     if (next) {
       begin_branch(*next);
     } else {
@@ -163,30 +164,15 @@ class Preparation {
     }
   }
 
-  void tell_branch() const {
-    if (!hooks_.note) return;
-    const Branch& b = out_.report.branches.back();
-    const std::size_t n = out_.report.branches.size();
-    hooks_.note(fmt::format("friction {:.4f} gives void ratio {:.4f} at {:.1f} kPa{}{}", b.friction, b.void_ratio,
-                            b.stress * 1e-3,
-                            n > 2 ? fmt::format(", relative density {:.3f}", *out_.report.relative_density_reached())
-                                  : std::string(n == 1 ? " (e_min)" : " (e_max)"),
-                            is_fetched_ ? ", kept from before" : fmt::format(", {} steps", b.steps)));
-  }
-
-  /// The stress path up to here is part of the name: a specimen that rested on its way is another one.
-  [[nodiscard]] std::string branch_name(std::size_t station) const {
-    std::string name = fmt::format("friction-{:.4f}-stress", out_.report.preparation_friction);
-    const std::vector<double> path = stations();
-    for (std::size_t k = 0; k <= station; ++k) name += fmt::format("-{:g}", path[k] * 1e-3);
-    return name + "-kPa";
+  [[nodiscard]] std::string state_name(std::size_t station) const {
+    return branch_state_name(out_.report.preparation_friction, stations(), station);
   }
 
   /// The branch at rest under the largest stress for which it was kept.
   bool fetch_branch() {
     if (!hooks_.fetch) return false;
     for (std::size_t station = stations().size(); station-- > 0;) {
-      std::optional<StateArchive> archive = hooks_.fetch(branch_name(station));
+      std::optional<StateArchive> archive = hooks_.fetch(state_name(station));
       if (!archive) continue;
       exchange_branch(*archive);
       out_.load.stress = stations()[station_];
@@ -207,17 +193,10 @@ class Preparation {
 
   // ---- stresses on the way
 
-  /// Stresses at which the present stage comes to rest, Pa.
+  /// Stresses at which the present stage comes to rest, Pa. A branch that was chosen has been at the smaller ones.
   [[nodiscard]] std::vector<double> stations() const {
-    std::vector<double> path;
-    const bool is_branch = stage_ == k_branch;
-    const double ratio = is_branch ? order_.specimen.branch_stress_ratio : 1.0;
-    const bool has_path = is_branch || order_.specimen.preparation_friction.has_value();
-    for (const double stress : order_.specimen.load_steps) {
-      if (has_path && stress < order_.normal_stress) path.push_back(ratio * stress);
-    }
-    path.push_back(ratio * order_.normal_stress);
-    return path;
+    if (stage_ == k_branch) return rest_stresses(order_, order_.specimen.branch_stress_ratio);
+    return order_.specimen.preparation_friction ? rest_stresses(order_, 1.0) : std::vector{order_.normal_stress};
   }
 
   void begin_station(std::size_t station) {
@@ -243,7 +222,7 @@ class Preparation {
       if (stage_ == k_branch && !is_fetched_ && hooks_.keep) {
         StateArchive archive;
         exchange_branch(archive);
-        hooks_.keep(branch_name(station_), archive);
+        hooks_.keep(state_name(station_), archive);
       }
       station_steps_ += rest_.steps;
       if (station_ + 1 == n) return;
@@ -315,10 +294,7 @@ class Preparation {
   // ---- what the outside sees
 
   [[nodiscard]] std::string label() const {
-    if (stage_ != k_branch) return stage_;
-    const std::size_t n = out_.report.branches.size();
-    const std::string which = n == 0 ? "e_min" : n == 1 ? "e_max" : fmt::format("trial {}", n - 1);
-    return fmt::format("{} (friction {:g})", which, out_.report.preparation_friction);
+    return stage_ == k_branch ? branch_label(out_.report.branches.size(), out_.report.preparation_friction) : stage_;
   }
 
   /// Estimate of the steps until shear.

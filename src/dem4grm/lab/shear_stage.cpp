@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/lab/shear_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/engine/simulation_state.hpp"
+#include "dem4grm/engine/time_step.hpp"
+#include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/lab/record_state.hpp"
+#include "dem4grm/walls/shear_box.hpp"
+
+namespace dem {
+namespace {
+
+constexpr int k_watch_interval = 500;  // steps between two looks of the watchdog
+/// The halves reach their velocity over this displacement, so that the start is no blow.
+constexpr double k_start_ramp = 2e-5;  // m
+/// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
+constexpr double k_longest_over_prepared = 2.0;
+
+}  // namespace
+
+ShearStage::ShearStage(const DirectShearCase& test, Specimen& specimen, Homogeneity& homogeneity, LabObserver& observer)
+    : test_(test),
+      specimen_(specimen),
+      s_(*specimen.simulation),
+      homogeneity_(homogeneity),
+      observer_(observer),
+      frames_(state_displacements(test)),
+      micro_(micro_displacements(test)) {
+  s_.servo.speed_cap = std::max(test.servo.shear_speed_cap, test.shear.velocity);
+  start_height_ = plate_height();
+  start_energy_ = s_.energy();
+}
+
+void ShearStage::run(StateArchive* from) {
+  if (from == nullptr) {
+    write_frame();
+    observer_.specimen_ready(specimen_state(), specimen_.report);
+    record_micro();
+    keep(true);
+  } else {
+    from->group("shear", [&] { exchange_all(*from); });
+    observer_.resumed({rows_, written_frames_, micro_rows_, start_energy_});
+  }
+  if (!observer_.wants_shear()) return;
+  while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
+    advance();
+    const bool is_watched = ++shear_steps_ % k_watch_interval == 0;
+    if (is_watched) watch();
+    if (displacement_ >= next_row_at() * (1.0 - 1e-12)) {
+      finish_row();
+      if (has_reached(frames_, next_frame_)) write_frame();
+      if (has_reached(micro_, micro_rows_.size())) record_micro();
+    }
+    if (is_watched) keep(false);
+  }
+}
+
+double ShearStage::plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
+
+double ShearStage::next_row_at() const {
+  return std::min(static_cast<double>(rows_.size() + 1) * test_.recording.interval, test_.shear.displacement);
+}
+
+bool ShearStage::has_reached(const std::vector<double>& at, std::size_t number) const {
+  return number < at.size() && displacement_ >= at[number] - 0.5 * test_.recording.interval;
+}
+
+void ShearStage::advance() {
+  const double v = test_.shear.velocity;
+  const double ramp = std::min(1.0, std::max(0.02, std::sqrt(displacement_ / k_start_ramp)));
+  ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v * ramp, s_.walls[ShearBox::k_top_plate].velocity.z);
+  s_.step();
+  displacement_ += v * ramp * s_.dt;
+  review_time_step(s_, k_longest_over_prepared * specimen_.report.time_step.seconds);
+  for (int w = 0; w < ShearBox::k_walls; ++w) {
+    const double fx = s_.reactions[static_cast<std::size_t>(w)].force.x;
+    (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += fx;
+  }
+  sums_.bottom_plate += s_.reactions[ShearBox::k_bottom_plate].force.x;
+  const double normal = plate_stress(s_, specimen_.load), target = test_.shear.normal_stress;
+  sums_.normal += normal;
+  if (sums_.steps == 0 || std::fabs(normal - target) > std::fabs(sums_.worst_normal - target)) {
+    sums_.worst_normal = normal;
+  }
+  ++sums_.steps;
+}
+
+void ShearStage::finish_row() {
+  const double area = specimen_.load.area, n = sums_.steps;
+  ShearRow row;
+  row.displacement = displacement_;
+  // The lower half moves to +x against the grains, which push it back: its shear stress is minus their force.
+  row.shear_stress = -sums_.lower / n / area;
+  row.shear_stress_corrected = row.shear_stress * test_.box.length / (test_.box.length - displacement_);
+  row.half_force_difference = -(sums_.lower + sums_.upper) / n / area;
+  row.plate_shear_stress = -sums_.bottom_plate / n / area;
+  row.normal_stress = sums_.normal / n;
+  row.normal_stress_worst = sums_.worst_normal;
+  row.vertical_displacement = plate_height() - start_height_;
+  row.void_ratio = plate_void_ratio(s_, specimen_.load);
+  // Inertial number of Chew et al. (2022): rate D sqrt(rho / sigma_n), rate = shear velocity / initial height.
+  row.inertial_number = test_.shear.velocity / start_height_ * specimen_.report.mean_size *
+                        std::sqrt(specimen_.report.mean_density / row.normal_stress);
+  row.unbalanced_ratio = balance(s_).ratio();
+  row.time_step = s_.dt;
+  row.energy = since_start(s_.energy());
+  rows_.push_back(row);
+  sums_ = {};
+  observer_.shear_row(row);
+  report();
+}
+
+EnergyReport ShearStage::since_start(EnergyReport e) const {
+  e.boundary_work -= start_energy_.boundary_work;
+  e.slip -= start_energy_.slip;
+  e.dashpot -= start_energy_.dashpot;
+  e.local_damping -= start_energy_.local_damping;
+  return e;
+}
+
+void ShearStage::report() {
+  const ShearRow& r = rows_.back();
+  Progress p;
+  p.stage = "shear";
+  p.fraction = displacement_ / test_.shear.displacement;
+  p.displacement = displacement_;
+  p.shear_stress = r.shear_stress;
+  p.normal_stress = r.normal_stress;
+  p.void_ratio = r.void_ratio;
+  p.inertial_number = r.inertial_number;
+  p.unbalanced_ratio = r.unbalanced_ratio;
+  p.steps = shear_steps_;
+  p.time_step = s_.dt;
+  observer_.progress(p);
+}
+
+void ShearStage::watch() {
+  const std::string trouble = find_trouble(s_, specimen_.bounds, k_overlap_limit);
+  if (trouble.empty()) {
+    if (!rows_.empty()) report();
+    return;
+  }
+  throw PhysicsError(
+      fmt::format("{} (stage shear, {:.3f} mm). Try a smaller integration.time_step_safety or a slower "
+                  "shear.velocity",
+                  trouble, displacement_ * 1e3));
+}
+
+void ShearStage::write_frame() {
+  written_frames_.push_back({static_cast<int>(next_frame_), displacement_, s_.state_hash()});
+  observer_.frame(s_, written_frames_.back());
+  ++next_frame_;
+}
+
+void ShearStage::record_micro() {
+  micro_rows_.push_back({displacement_, analyse(micro_state_of(s_), {}).numbers});
+  observer_.micro_row(micro_rows_.back());
+}
+
+StateArchive ShearStage::specimen_state() {
+  StateArchive archive;
+  std::string stage = "shear";
+  archive.exchange("stage", stage);
+  exchange(archive, specimen_);
+  return archive;
+}
+
+void ShearStage::keep(bool is_new_stage) {
+  if (!observer_.wants_checkpoint(is_new_stage)) return;
+  StateArchive archive = specimen_state();
+  archive.group("shear", [&] { exchange_all(archive); });
+  observer_.checkpoint(archive);
+}
+
+void ShearStage::exchange_all(StateArchive& archive) {
+  archive.exchange("displacement", displacement_);
+  archive.exchange("start_height", start_height_);
+  archive.group("start_energy", [&] { exchange(archive, start_energy_); });
+  archive.exchange("steps", shear_steps_);
+  archive.group("homogeneity", [&] { exchange(archive, homogeneity_); });
+  archive.group("sums", [&] {
+    archive.exchange("lower", sums_.lower);
+    archive.exchange("upper", sums_.upper);
+    archive.exchange("normal", sums_.normal);
+    archive.exchange("bottom_plate", sums_.bottom_plate);
+    archive.exchange("worst_normal", sums_.worst_normal);
+    archive.exchange("steps", sums_.steps);
+  });
+  exchange(archive, written_frames_);
+  next_frame_ = written_frames_.size();
+  exchange(archive, rows_);
+  exchange(archive, micro_rows_);
+}
+
+}  // namespace dem
