@@ -29,7 +29,8 @@ CENTRES = (np.arange(HALF) + 0.5) * WIDTH
 def read_csv(path):
     with open(path, newline="") as file:
         rows = list(csv.reader(file))
-    return {name: np.array([float(r[k]) for r in rows[1:]]) for k, name in enumerate(rows[0])}
+    whole = [r for r in rows[1:] if len(r) == len(rows[0])]  # the last row of a running test may be half written
+    return {name: np.array([float(r[k]) for r in whole]) for k, name in enumerate(rows[0])}
 
 
 def fit(values, has_value, k):
@@ -123,6 +124,9 @@ def main():
             return 66
     figure = plt.figure(figsize=(12, 14), layout="constrained")
     with h5py.File(options.folder / "results.h5") as results:
+        if not results["frames"]:
+            print(f"{options.folder}: results.h5 holds no state yet", file=sys.stderr)
+            return 66
         draw_states(figure, chosen_frames(results, options.at))
     draw_records(figure, read_csv(options.folder / "micro.csv"))
     target = options.output or options.folder / "micro.png"

@@ -91,10 +91,8 @@ std::string homogeneity_lines(const JsonObject& fields) {
                            shown("void_ratio_at_plates", 3), shown("void_ratio_at_side_walls", 3)));
   text += line("layering", fmt::format("{} at the plates, {} at the side walls", shown("layering_at_plates", 3),
                                        shown("layering_at_side_walls", 3)));
-  text += line("fabric before shear",
-               fmt::format("deviator {} (noise {}), in x-z {} (noise {})", shown("fabric_deviator_before_shear", 3),
-                           shown("fabric_deviator_noise", 3), shown("fabric_amplitude_xz_before_shear", 3),
-                           shown("fabric_amplitude_xz_noise", 3)));
+  text += line("fabric before shear", fmt::format("deviator {} (noise {})", shown("fabric_deviator_before_shear", 3),
+                                                  shown("fabric_deviator_noise", 3)));
   text += line("largest overlap", fmt::format("{} of a radius; caught: {}", shown("largest_overlap_before_shear", 4),
                                               shown("caught_balls_before_shear", 0)));
   return text;

@@ -68,11 +68,34 @@ TEST_F(SpecimenCommand, ASpecimenServesOtherShearTests) {
                                    "--set", "gravel.friction=0.5"});
   EXPECT_EQ(other.exit_code, 65) << other.err;
   EXPECT_NE(other.err.find("made with  seed = 3"), std::string::npos) << other.err;
-  EXPECT_NE(other.err.find("the case has  friction = 0.5"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("the case has  gravel.friction = 0.5"), std::string::npos) << other.err;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "c"));
   EXPECT_EQ(run({"run", "tiny.toml", "-o", "c", "--specimen", "nowhere"}).exit_code, 66);
   test::write_all(folder_ / "broken.h5", "no specimen");
   EXPECT_EQ(run({"run", "tiny.toml", "-o", "c", "--specimen", "broken.h5"}).exit_code, 74);
+}
+
+TEST_F(SpecimenCommand, IsForShearTestsOnly) {
+  ASSERT_EQ(run({"new", "grain_compression", "-o", "grain.toml"}).exit_code, 0);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"specimen", "grain.toml", "-o", "g"},
+        std::vector<std::string>{"run", "grain.toml", "-o", "g", "--store", "s"},
+        std::vector<std::string>{"run", "grain.toml", "-o", "g", "--specimen", "s"}}) {
+    const ProgramResult result = run(words);
+    EXPECT_EQ(result.exit_code, 64) << result.err;
+    EXPECT_NE(result.err.find("is no direct shear test"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "g"));
+  }
+}
+
+TEST_F(SpecimenCommand, ANamedSpecimenReplacesAPreparationButNotShear) {
+  ASSERT_EQ(run({"specimen", "tiny.toml", "-o", "made", "-q"}).exit_code, 0);
+  // A folder whose preparation is done has a checkpoint that is not in shear yet, or just at its beginning.
+  const std::vector<std::string> words{"run", "tiny.toml", "-o", "made", "--specimen", "made/specimen.h5"};
+  const ProgramResult result = run(words);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("shear has begun already; the specimen that was named is not used"), std::string::npos)
+      << result.err;
 }
 
 TEST_F(SpecimenCommand, AStoreIsShared) {

@@ -98,6 +98,9 @@ GrainSizes grain_sizes(const SpecimenSettings& specimen, const GivenKeys& given)
   return sizes;
 }
 
+/// Between the frictions that give e_min and e_max; a search needs room for its trials.
+constexpr double k_least_friction_range = 0.01;
+
 void check_preparation(const DirectShearCase& test, Rules& rules) {
   const auto& [given, problems] = rules;
   const SpecimenSettings& specimen = test.specimen;
@@ -107,10 +110,18 @@ void check_preparation(const DirectShearCase& test, Rules& rules) {
                    "the friction sets the density; give it, or the density to be searched for");
   }
   if (given.are_good({"specimen.smallest_friction", "specimen.largest_friction"}) &&
-      !(specimen.smallest_friction < specimen.largest_friction)) {
+      !(specimen.smallest_friction + k_least_friction_range <= specimen.largest_friction)) {
     problems.error(given.place_of({"specimen.smallest_friction", "specimen.largest_friction"}),
-                   fmt::format("specimen.smallest_friction = {} must be below specimen.largest_friction = {}",
-                               format_decimal(specimen.smallest_friction), format_decimal(specimen.largest_friction)));
+                   fmt::format("specimen.smallest_friction = {} must be {} below specimen.largest_friction = {}",
+                               format_decimal(specimen.smallest_friction), format_decimal(k_least_friction_range),
+                               format_decimal(specimen.largest_friction)));
+  }
+  for (const std::string_view key : {"specimen.relative_density_tolerance", "specimen.smallest_friction",
+                                     "specimen.largest_friction", "specimen.branch_stress_ratio"}) {
+    if (!given.has(key) || !given.has("specimen.preparation_friction")) continue;
+    problems.warning(
+        given.place_of({key}),
+        fmt::format("{} has no effect beside specimen.preparation_friction: nothing is searched for", key));
   }
   if (given.are_good({"specimen.load_steps"}) &&
       std::adjacent_find(specimen.load_steps.begin(), specimen.load_steps.end(), std::greater_equal<>()) !=

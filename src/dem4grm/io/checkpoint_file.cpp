@@ -14,8 +14,6 @@
 namespace dem {
 namespace {
 
-constexpr std::int64_t k_format = 4;  // raised with every change of what is saved
-
 /// Errors of the library name the object; the user needs the file.
 template <class Work>
 auto naming_file(const std::filesystem::path& path, const char* hint, const Work& work) {
@@ -38,7 +36,7 @@ void write_checkpoint(const std::filesystem::path& path, const StateArchive& sta
     {
       const hdf5::Handle meta = hdf5::create_group(file, "meta");
       hdf5::write_attribute(meta, "program", std::string("dem4grm checkpoint"));
-      hdf5::write_attribute(meta, "format", k_format);
+      hdf5::write_attribute(meta, "format", k_state_format);
       hdf5::write_attribute(meta, "version", std::string(k_version));
       hdf5::write_attribute(meta, "commit", std::string(k_commit));
       hdf5::write_attribute(meta, "wall_time", facts.wall_time);
@@ -58,8 +56,8 @@ StoredCheckpoint read_checkpoint(const std::filesystem::path& path) {
     const hdf5::Handle meta = hdf5::open_group(file, "meta");
     if (hdf5::read_text_attribute(meta, "program") != "dem4grm checkpoint") throw IoError("is no checkpoint");
     const double format = hdf5::read_number_attribute(meta, "format");
-    if (format != static_cast<double>(k_format)) {
-      throw IoError(fmt::format("has format {}, this program reads {}", format, k_format));
+    if (format != static_cast<double>(k_state_format)) {
+      throw IoError(fmt::format("has format {}, this program reads {}", format, k_state_format));
     }
     StoredCheckpoint out;
     out.facts.wall_time = hdf5::read_number_attribute(meta, "wall_time");

@@ -18,7 +18,7 @@ constexpr double k_degrees = 180.0 / std::numbers::pi;
 using S = SetNumbers;
 using M = MicroNumbers;
 
-constexpr std::array<SetQuantity, 20> k_set_quantities{{
+constexpr std::array<SetQuantity, 21> k_set_quantities{{
     {"contacts", "1", "contacts that carry force", &S::contacts},
     {"normal_force", "N", "mean normal force of the contacts", &S::normal_force},
     {"normal_force_orientations", "N", "mean of the mean normal forces of the bins", &S::normal_force_orientations},
@@ -28,6 +28,7 @@ constexpr std::array<SetQuantity, 20> k_set_quantities{{
     {"theta_a", "deg", "major axis of the fabric from the shear direction", &S::fabric_direction, k_degrees},
     {"a_residual", "1", "root mean square of the fabric off its curve, over the mean", &S::fabric_residual},
     {"a_noise", "1", "amplitude that isotropic contacts of that number exceed once in 3000 times", &S::fabric_noise},
+    {"theta_a_error", "deg", "standard error of theta_a", &S::fabric_direction_error, k_degrees},
     {"a_n", "1", "amplitude of the normal force", &S::normal_amplitude},
     {"theta_n", "deg", "direction of the largest normal force", &S::normal_direction, k_degrees},
     {"a_n_residual", "1", "root mean square of the normal force off its curve, over the mean", &S::normal_residual},

@@ -5,22 +5,25 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/state_hash.hpp"
 #include "dem4grm/io/case_file.hpp"
 #include "dem4grm/io/checkpoint_file.hpp"
+#include "dem4grm/io/folder_lock.hpp"
 #include "dem4grm/io/output_file.hpp"
-#include "dem4grm/version.hpp"
 
 namespace dem {
 namespace {
 
 constexpr std::size_t k_digits = 12;  // of the fingerprint; the whole text is compared too
 
-std::string fingerprint(const std::string& text) {
+std::string fingerprint(const std::string& bytes) {
   StateHash hash;
-  hash.add_bytes(text.data(), text.size());
-  return hash.text().substr(0, k_digits);
+  hash.add_bytes(bytes.data(), bytes.size());
+  return hash.text();
 }
 
 }  // namespace
@@ -42,19 +45,27 @@ std::string preparation_text(const DirectShearCase& test) {
   return resolved_toml(kept);
 }
 
-PreparationStore::PreparationStore(const std::filesystem::path& folder, const DirectShearCase& test)
-    : text_(preparation_text(test)) {
-  folder_ = folder / fingerprint(text_);
+std::string program_fingerprint() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  if (!program) return {};
+  return fingerprint(std::string(std::istreambuf_iterator<char>(program), {}));
+}
+
+PreparationStore::PreparationStore(const std::filesystem::path& folder, const DirectShearCase& test,
+                                   const std::string& program)
+    : text_(preparation_text(test)), has_program_(!program.empty()) {
+  folder_ = folder / fingerprint(text_).substr(0, k_digits);
+  text_ += "# program " + program + "\n";
 }
 
 std::filesystem::path PreparationStore::file_of(const std::string& name) const { return folder_ / (name + ".h5"); }
 
 std::optional<StateArchive> PreparationStore::fetch(const std::string& name) const {
   std::error_code error;
-  if (!std::filesystem::exists(file_of(name), error)) return std::nullopt;
+  if (!has_program_ || !std::filesystem::exists(file_of(name), error)) return std::nullopt;
   try {
     StoredCheckpoint stored = read_checkpoint(file_of(name));
-    if (stored.facts.commit != k_commit || stored.facts.resolved_toml != text_) return std::nullopt;
+    if (stored.facts.resolved_toml != text_) return std::nullopt;
     return std::move(stored.state);
   } catch (const IoError&) {
     return std::nullopt;  // damaged or of another format: it is made again, and written over
@@ -65,8 +76,8 @@ void PreparationStore::keep(const std::string& name, const StateArchive& state) 
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("{}: the folder cannot be made: {}", folder_.string(), error.message()));
-  // A draft of its own: another process may be keeping the same state.
-  const std::filesystem::path draft = folder_ / fmt::format("{}-{}.h5", name, ::getpid());
+  // A draft of its own: another process, here or on another machine, may be keeping the same state.
+  const std::filesystem::path draft = folder_ / fmt::format("{}-{}-{}.part", name, host_name(), ::getpid());
   write_checkpoint(draft, state, {text_, 0.0, {}});
   publish_file(draft, file_of(name));
 }

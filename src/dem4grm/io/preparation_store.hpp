@@ -2,7 +2,7 @@
 // States of preparations that later ones may begin with: the random fill, and branches at rest under a stress.
 //
 // A state is handed over only to a preparation that would arrive at the same bits: materials, box, gradings, seed and
-// rules of rest must agree, and the program must be of the same commit. Friction and stress are in the name of a state.
+// rules of rest must agree, and the program must be the same to the byte. Friction and stress are in the name of a state.
 // So a test ends with the same bits whether it found states or not.
 #pragma once
 
@@ -18,11 +18,15 @@ namespace dem {
 /// The case as TOML without what does not matter to the states kept: name, target of the search, stresses, shear, record.
 std::string preparation_text(const DirectShearCase& test);
 
+/// Fingerprint of the running program; empty when it cannot be read, and then nothing is handed over.
+std::string program_fingerprint();
+
 class PreparationStore {
  public:
   /// States of this case lie in a subfolder of `folder`, named by the fingerprint of preparation_text. Several processes
   /// may share a folder.
-  PreparationStore(const std::filesystem::path& folder, const DirectShearCase& test);
+  PreparationStore(const std::filesystem::path& folder, const DirectShearCase& test,
+                   const std::string& program = program_fingerprint());
 
   /// A state that was kept under that name; nothing when there is none, or none that can be used.
   [[nodiscard]] std::optional<StateArchive> fetch(const std::string& name) const;
@@ -33,7 +37,8 @@ class PreparationStore {
   [[nodiscard]] std::filesystem::path file_of(const std::string& name) const;
 
   std::filesystem::path folder_;
-  std::string text_;
+  std::string text_;  ///< what a state must agree with: case and program
+  bool has_program_;
 };
 
 }  // namespace dem

@@ -31,12 +31,28 @@ JsonObject run_test(const TestCase& test, TestWriter& writer, StateArchive* from
   return writer.finish(run_grain_compression(std::get<GrainCompressionCase>(test), writer));
 }
 
+/// Throws Error with ExitCode::usage when a test without a specimen is asked for one.
+void check_settings(const LoadedCase& loaded, const RunSettings& settings) {
+  if (std::holds_alternative<DirectShearCase>(loaded.test)) return;
+  if (settings.links.is_specimen_only || !settings.specimen.empty() || !settings.links.store.empty()) {
+    throw Error(ExitCode::usage,
+                fmt::format("{} is no direct shear test: it has no specimen to prepare, to start from or to keep",
+                            case_name(loaded.test)));
+  }
+}
+
 /// The specimen that the user names, when the run begins at its beginning.
-std::optional<StateArchive> chosen_specimen(const LoadedCase& loaded, const RunSettings& settings) {
+std::optional<StoredSpecimen> chosen_specimen(const LoadedCase& loaded, const RunSettings& settings) {
   if (settings.specimen.empty()) return std::nullopt;
-  const auto* shear = std::get_if<DirectShearCase>(&loaded.test);
-  if (shear == nullptr) throw Error(ExitCode::usage, "--specimen is for shear tests");
-  return read_specimen(settings.specimen, *shear);
+  return read_specimen(settings.specimen, std::get<DirectShearCase>(loaded.test));
+}
+
+std::string note_about(const StoredSpecimen& specimen, const std::filesystem::path& path) {
+  std::string text = fmt::format("starts from the specimen of {}", path.string());
+  if (specimen.commit != k_commit) {
+    text += fmt::format("; it was made by commit {}, so results may not be those of one program", specimen.commit);
+  }
+  return text;
 }
 
 std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
@@ -53,19 +69,24 @@ std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
 }  // namespace
 
 RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
+  check_settings(loaded, settings);
   // A finished folder may be read-only and needs no lock.
   if (auto outcome = outcome_of_complete(settings, look_into(settings.folder, loaded))) return *outcome;
   // Before anything is written: a specimen of another case must not leave a folder behind.
-  std::optional<StateArchive> start = chosen_specimen(loaded, settings);
+  std::optional<StoredSpecimen> start = chosen_specimen(loaded, settings);
   const OutputFolder folder(settings.folder, loaded);
   if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
   std::optional<StoredCheckpoint> checkpoint;
   if (folder.has_checkpoint()) checkpoint = read_checkpoint(folder.file(file_name::k_checkpoint));
-  StateArchive* from = checkpoint ? &checkpoint->state : start ? &*start : nullptr;
+  // A named specimen saves what is left of a preparation; shear that has begun goes on.
+  if (start && checkpoint && !checkpoint->state.has_group("shear")) checkpoint.reset();
+  StateArchive* from = checkpoint ? &checkpoint->state : start ? &start->state : nullptr;
   TestWriter writer(folder, loaded, settings.threads, settings.links, checkpoint ? checkpoint->facts.wall_time : 0.0);
   if (!folder.lock_note().empty()) writer.note(folder.lock_note());
-  if (folder.found() == FolderContent::unfinished) writer.note(note_about(checkpoint));
-  if (start && !checkpoint) writer.note(fmt::format("starts from the specimen of {}", settings.specimen.string()));
+  const bool starts_from_specimen = start && !checkpoint;
+  if (starts_from_specimen) writer.note(note_about(*start, settings.specimen));
+  if (start && checkpoint) writer.note("shear has begun already; the specimen that was named is not used");
+  if (!starts_from_specimen && folder.found() == FolderContent::unfinished) writer.note(note_about(checkpoint));
   try {
     return {run_test(loaded.test, writer, from), false};
   } catch (const StoppedOnRequest& stop) {

@@ -31,28 +31,31 @@ std::string specimen_text(DirectShearCase test) {
   return resolved_toml(test);
 }
 
-/// "normal_stress = "60 kPa"" of a line of a resolved case, without its comment.
-std::string setting_of(const std::string& line) {
-  const std::size_t end = line.find("  # ");
-  return line.substr(0, end);
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
+/// The settings of a resolved case with their sections, without comments: "shear.normal_stress = "60 kPa"".
+std::vector<std::string> settings_of(const std::string& text) {
+  std::vector<std::string> settings;
   std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
+  std::string section;
+  for (std::string line; std::getline(in, line);) {
+    line = line.substr(0, line.find("  # "));
+    if (line.starts_with('[') && line.ends_with(']')) {
+      section = line.substr(1, line.size() - 2) + '.';
+    } else if (!line.empty() && !line.starts_with('#')) {
+      settings.push_back((line.find(" = ") == std::string::npos ? "" : section) + line);
+    }
+  }
+  return settings;
 }
 
-/// One sentence for each line that only one of the two has.
+/// One sentence for each setting that only one of the two has.
 std::vector<std::string> differences(const std::string& stored, const std::string& wanted) {
-  const std::vector<std::string> a = lines_of(stored), b = lines_of(wanted);
+  const std::vector<std::string> a = settings_of(stored), b = settings_of(wanted);
   std::vector<std::string> out;
   for (const std::string& line : a) {
-    if (std::find(b.begin(), b.end(), line) == b.end()) out.push_back("made with  " + setting_of(line));
+    if (std::find(b.begin(), b.end(), line) == b.end()) out.push_back("made with  " + line);
   }
   for (const std::string& line : b) {
-    if (std::find(a.begin(), a.end(), line) == a.end()) out.push_back("the case has  " + setting_of(line));
+    if (std::find(a.begin(), a.end(), line) == a.end()) out.push_back("the case has  " + line);
   }
   return out;
 }
@@ -64,8 +67,8 @@ void check_origin(const std::filesystem::path& path, const std::string& stored_c
   const std::string made = specimen_text(*made_for), wanted = specimen_text(test);
   if (made == wanted) return;
   throw InputError(fmt::format(
-      "{}: the specimen was made for another case; only the name, the record and the shear apart from its normal "
-      "stress may differ:\n  {}",
+      "{}: the specimen was made for another case; only the name, the record, servo.shear_speed_cap and the "
+      "shear apart from its normal stress may differ:\n  {}",
       path.string(), fmt::join(differences(made, wanted), "\n  ")));
 }
 
@@ -73,11 +76,13 @@ void check_origin(const std::filesystem::path& path, const std::string& stored_c
 
 void add_specimen_state(const std::filesystem::path& path, const StateArchive& state) {
   hdf5::Handle file = hdf5::open_file(path, hdf5::Access::write);
-  write_state(hdf5::create_group(file, k_state), state);
+  const hdf5::Handle group = hdf5::create_group(file, k_state);
+  hdf5::write_attribute(group, "format", k_state_format);
+  write_state(group, state);
   file.close(path.string() + ": cannot be written");
 }
 
-StateArchive read_specimen(const std::filesystem::path& given, const DirectShearCase& test) {
+StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShearCase& test) {
   std::error_code ignored;
   const std::filesystem::path path =
       std::filesystem::is_directory(given, ignored) ? given / file_name::k_specimen : given;
@@ -90,8 +95,13 @@ StateArchive read_specimen(const std::filesystem::path& given, const DirectShear
     if (std::find(groups.begin(), groups.end(), k_state) == groups.end()) {
       throw IoError("holds no complete specimen to start from");
     }
-    check_origin(path, hdf5::read_text(hdf5::open_group(file, "meta"), "resolved_toml"), test);
-    return read_state(hdf5::open_group(file, k_state));
+    const hdf5::Handle meta = hdf5::open_group(file, "meta"), state = hdf5::open_group(file, k_state);
+    const double format = hdf5::read_number_attribute(state, "format");
+    if (format != static_cast<double>(k_state_format)) {
+      throw IoError(fmt::format("its state has format {}, this program reads {}", format, k_state_format));
+    }
+    check_origin(path, hdf5::read_text(meta, "resolved_toml"), test);
+    return StoredSpecimen{read_state(state), hdf5::read_text_attribute(meta, "commit")};
   } catch (const IoError& e) {
     const std::string shown = path.string();
     if (std::string_view(e.what()).starts_with(shown)) throw;

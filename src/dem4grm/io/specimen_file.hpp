@@ -4,18 +4,25 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/lab/case.hpp"
 
 namespace dem {
 
+/// A specimen that was read.
+struct StoredSpecimen {
+  StateArchive state;
+  std::string commit;  ///< of the program that made it
+};
+
 /// Adds the complete state to a file of results. Throws IoError.
 void add_specimen_state(const std::filesystem::path& path, const StateArchive& state);
 
 /// The specimen of a file, or of the file specimen.h5 in a folder, for run_direct_shear. Only name, shear (but not the
-/// normal stress), record and the speed cap of the servo in shear may differ from the case it was made for. Throws
+/// normal stress), record and servo.shear_speed_cap may differ from the case it was made for. Throws
 /// MissingFileError, IoError for a file without a specimen, InputError that lists every key that differs.
-StateArchive read_specimen(const std::filesystem::path& path, const DirectShearCase& test);
+StoredSpecimen read_specimen(const std::filesystem::path& path, const DirectShearCase& test);
 
 }  // namespace dem

@@ -157,8 +157,6 @@ JsonObject homogeneity_fields(const Homogeneity& h) {
           {"contacts_before_shear", h.fabric.contacts},
           {"fabric_deviator_before_shear", h.fabric.deviator},
           {"fabric_deviator_noise", h.fabric.deviator_noise},
-          {"fabric_amplitude_xz_before_shear", h.fabric.amplitude_xz},
-          {"fabric_amplitude_xz_noise", h.fabric.amplitude_xz_noise},
           {"largest_overlap_before_shear", h.overlap.largest},
           {"caught_balls_before_shear", h.overlap.caught}};
 }

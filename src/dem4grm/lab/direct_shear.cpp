@@ -98,17 +98,18 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
   out.state_hash = s.state_hash();
 }
 
-/// How even the finished specimen is; warns when a grain is caught in another.
-Homogeneity examine(const DirectShearCase& test, const Specimen& specimen, LabObserver& observer) {
+/// How even the finished specimen is.
+Homogeneity examine(const DirectShearCase& test, const Specimen& specimen) {
   const Simulation& s = *specimen.simulation;
   const Bounds room{{}, {test.box.length, test.box.width, s.walls[ShearBox::k_top_plate].corner.z}};
-  const Homogeneity found = measure_homogeneity(packing_of(s), contact_normals(s), room, specimen.report.mean_size,
-                                                test.rubber.density / test.rubber_solid_density);
-  if (found.overlap.caught > 0) {
-    observer.warning(fmt::format(
-        "{} ball centres lie inside other grains of the finished specimen; choose another seed", found.overlap.caught));
-  }
-  return found;
+  return measure_homogeneity(packing_of(s), contact_normals(s), room, specimen.report.mean_size,
+                             test.rubber.density / test.rubber_solid_density);
+}
+
+void warn_of_caught(const Homogeneity& found, LabObserver& observer) {
+  if (found.overlap.caught == 0) return;
+  observer.warning(fmt::format("{} ball centres lie inside other grains of the finished specimen; choose another seed",
+                               found.overlap.caught));
 }
 
 PreparationHooks hooks_of(LabObserver& observer, StateArchive* from) {
@@ -151,9 +152,13 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
         specimen.report.height * 1e3, miss * 100.0, test.box.height * 1e3, specimen.report.void_ratio_before_shear));
   }
   Homogeneity homogeneity;
-  if (!is_in_shear) homogeneity = examine(test, specimen, observer);
+  if (!is_in_shear) {
+    homogeneity = examine(test, specimen);
+    warn_of_caught(homogeneity, observer);
+  }
   ShearStage stage(test, specimen, homogeneity, observer);
   stage.run(is_in_shear ? from : nullptr);
+  if (is_in_shear) warn_of_caught(homogeneity, observer);  // known again only now
 
   DirectShearResult out;
   out.specimen = specimen.report;

@@ -100,8 +100,6 @@ void exchange(StateArchive& archive, Homogeneity& h) {
   archive.exchange("contacts", h.fabric.contacts);
   archive.exchange("deviator", h.fabric.deviator);
   archive.exchange("deviator_noise", h.fabric.deviator_noise);
-  archive.exchange("amplitude_xz", h.fabric.amplitude_xz);
-  archive.exchange("amplitude_xz_noise", h.fabric.amplitude_xz_noise);
   archive.exchange("largest_overlap", h.overlap.largest);
   archive.exchange("caught", h.overlap.caught);
 }

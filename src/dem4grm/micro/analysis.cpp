@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/micro/analysis.hpp"
 
+#include <limits>
+
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/micro/connectivity.hpp"
 #include "dem4grm/micro/fabric.hpp"
@@ -21,6 +23,7 @@ SetNumbers numbers_of_set(std::span<const Contact> contacts, const PolarHistogra
   out.fabric_direction = fabric.direction;
   out.fabric_residual = fabric.residual;
   out.fabric_noise = isotropy_bound(histogram.count);
+  out.fabric_direction_error = direction_error(histogram.count, fabric.amplitude);
   const ForceAnisotropy normal = normal_force_anisotropy(histogram), shear = shear_force_anisotropy(histogram);
   out.normal_force = normal.mean_over_contacts;
   out.normal_force_orientations = normal.mean_over_orientations();
@@ -39,7 +42,7 @@ SetNumbers numbers_of_set(std::span<const Contact> contacts, const PolarHistogra
 void take_strong(const ContactNetwork& network, std::span<const Contact> contacts, MicroAnalysis& out) {
   const StrongMeasure measure = out.options.strong;
   const StrongNetwork strong = strong_network(contacts, measure);
-  const Percolation percolation = percolation_of(network, contacts, measure);
+  const Percolation percolation = percolation_of(network, contacts, out.options);
   const ZoneLabel zone = zone_of(strong);
   MicroNumbers& n = out.numbers;
   n.strong_threshold = strong.threshold;
@@ -48,7 +51,7 @@ void take_strong(const ContactNetwork& network, std::span<const Contact> contact
   n.strong_spans = percolation.spans ? 1.0 : 0.0;
   n.strong_clusters = percolation.clusters;
   n.strong_largest_cluster = percolation.largest_cluster;
-  n.zone = static_cast<double>(zone.zone);
+  n.zone = strong.count > 0.0 ? static_cast<double>(zone.zone) : std::numeric_limits<double>::quiet_NaN();
   n.zone_margin = zone.margin;
   for (std::size_t k = 0; k < k_pair_kinds; ++k) {
     n.sets[0].strong_share += strong.composition[k];
@@ -125,7 +128,9 @@ MicroAnalysis analyse(const MicroState& state, const MicroOptions& options) {
   for (std::size_t set = 0; set < k_contact_sets; ++set) {
     const std::vector<Contact> of_kind =
         set == 0 ? std::vector<Contact>() : contacts_of_kind(contacts, static_cast<PairKind>(set - 1));
-    const std::span<const Contact> chosen = set == 0 ? contacts : std::span<const Contact>(of_kind);
+    const std::vector<Contact> seen =
+        contacts_in_projection(set == 0 ? contacts : std::span<const Contact>(of_kind), options.projection);
+    const std::span<const Contact> chosen(seen);
     const std::vector<PolarSample> samples = polar_samples(chosen, options);
     out.histograms[set] = polar_histogram(samples, options.bins);
     out.numbers.sets[set] = numbers_of_set(chosen, out.histograms[set], options.force_mean);

@@ -39,6 +39,7 @@ struct SetNumbers {
   double fabric_direction = 0.0;           ///< theta_a, [0, pi)
   double fabric_residual = 0.0;            ///< root mean square of histogram minus curve over the mean
   double fabric_noise = 0.0;               ///< isotropy_bound
+  double fabric_direction_error = 0.0;     ///< standard error of theta_a
   double normal_amplitude = 0.0;           ///< a_n
   double normal_direction = 0.0;           ///< theta_n, [0, pi)
   double normal_residual = 0.0;

@@ -152,16 +152,6 @@ std::vector<Contact> merge_pairs(std::span<const Contact> contacts) {
   return out;
 }
 
-ContactNetwork mirrored(ContactNetwork network) {
-  const auto mirror = [](auto& c) {
-    for (Vec3* v : {&c.point, &c.normal, &c.shear_force, &c.branch}) v->x = -v->x;
-  };
-  for (Contact& c : network.contacts) mirror(c);
-  for (WallContact& c : network.wall_contacts) mirror(c);
-  for (Vec3& x : network.body_position) x.x = -x.x;
-  return network;
-}
-
 std::vector<Contact> contacts_of_kind(std::span<const Contact> contacts, PairKind kind) {
   std::vector<Contact> out;
   out.reserve(static_cast<std::size_t>(

@@ -86,10 +86,6 @@ SampleBox find_sample_box(std::span<const Wall> walls);
 /// Contacts whose weighted normals cancel keep the normal of the first one.
 std::vector<Contact> merge_pairs(std::span<const Contact> contacts);
 
-/// The network seen in a mirror across the plane x = 0. For a test whose lower half went to -x against the upper one: angles
-/// then turn the same way as in all others.
-ContactNetwork mirrored(ContactNetwork network);
-
 /// The contacts of one kind, in their order.
 std::vector<Contact> contacts_of_kind(std::span<const Contact> contacts, PairKind kind);
 

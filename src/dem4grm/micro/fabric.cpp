@@ -19,10 +19,6 @@ HarmonicFit fabric_anisotropy(const PolarHistogram& histogram) {
 
 double isotropy_bound(double contacts) { return 4.0 * std::sqrt(2.0 / contacts); }
 
-double isotropy_probability(double contacts, double amplitude) {
-  return std::exp(-0.25 * contacts * amplitude * amplitude);
-}
-
 double direction_error(double contacts, double amplitude) { return std::sqrt(2.0 / contacts) / (2.0 * amplitude); }
 
 Tensor3 fabric_tensor(std::span<const Contact> contacts) {

@@ -22,9 +22,6 @@ HarmonicFit fabric_anisotropy(const PolarHistogram& histogram);
 /// Largest a that noise alone explains: |a| of N isotropic contacts exceeds it with probability exp(-8) = 3e-4.
 ///   formula:  4 sqrt(2/N).  Both parts of a have the standard deviation sqrt(2/N), so P(a > x) = exp(-N x^2 / 4).
 double isotropy_bound(double contacts);
-/// That probability of the amplitude that was found: of N isotropic contacts this or more.
-double isotropy_probability(double contacts, double amplitude);
-
 /// Standard error of theta_a, rad: sqrt(2/N) / (2 a).
 double direction_error(double contacts, double amplitude);
 

@@ -57,6 +57,14 @@ Coefficients by_least_squares(std::span<const double> values, std::span<const un
 double PolarHistogram::bin_width() const { return 2.0 * k_pi / bins; }
 double PolarHistogram::bin_centre(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * bin_width(); }
 
+std::vector<Contact> contacts_in_projection(std::span<const Contact> contacts, Projection projection) {
+  std::vector<Contact> out(contacts.begin(), contacts.end());
+  if (projection == Projection::near_plane) {
+    std::erase_if(out, [](const Contact& c) { return !(std::fabs(c.normal.y) < k_near_plane); });
+  }
+  return out;
+}
+
 std::vector<PolarSample> polar_samples(std::span<const Contact> contacts, const MicroOptions& options) {
   std::vector<PolarSample> samples;
   samples.reserve(contacts.size());

@@ -20,7 +20,10 @@ struct PolarSample {
   double shear_force = 0.0;   ///< N, magnitude of the whole vector
 };
 
-/// Samples in the order of the contacts. A normal along y has no direction in the plane and is left out.
+/// The contacts that an analysis of the plane looks at: all, or those with |n_y| < k_near_plane.
+std::vector<Contact> contacts_in_projection(std::span<const Contact> contacts, Projection projection);
+
+/// Samples of contacts_in_projection, in their order. A normal along y has no direction in the plane and is left out.
 std::vector<PolarSample> polar_samples(std::span<const Contact> contacts, const MicroOptions& options);
 
 /// Numbers and sums of forces of the samples in each bin.

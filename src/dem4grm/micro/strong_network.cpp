@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace dem {
 namespace {
@@ -36,9 +38,23 @@ class Groups {
   std::vector<std::size_t> parent_;
 };
 
-}  // namespace
+/// Contacts with walls; at the level of pairs all of one body with one wall as one, their forces added up.
+std::vector<WallContact> plate_links(const ContactNetwork& network, ContactLevel level) {
+  if (level == ContactLevel::contact) return network.wall_contacts;
+  std::map<std::pair<int, int>, WallContact> by_body_and_wall;
+  for (const WallContact& c : network.wall_contacts) {
+    const auto [place, is_new] = by_body_and_wall.try_emplace({c.body, c.wall}, c);
+    if (is_new) continue;
+    place->second.normal_force += c.normal_force;  // a plane has one normal
+    place->second.shear_force += c.shear_force;
+  }
+  std::vector<WallContact> merged;
+  merged.reserve(by_body_and_wall.size());
+  for (const auto& [key, contact] : by_body_and_wall) merged.push_back(contact);
+  return merged;
+}
 
-double strength_of(const Contact& contact, StrongMeasure measure) { return strength(contact, measure); }
+}  // namespace
 
 std::vector<unsigned char> strong_contacts(std::span<const Contact> contacts, StrongMeasure measure) {
   const double threshold = mean_strength(contacts, measure);
@@ -86,7 +102,9 @@ ZoneLabel zone_of(const StrongNetwork& strong) {
   return label;
 }
 
-Percolation percolation_of(const ContactNetwork& network, std::span<const Contact> contacts, StrongMeasure measure) {
+Percolation percolation_of(const ContactNetwork& network, std::span<const Contact> contacts,
+                           const MicroOptions& options) {
+  const StrongMeasure measure = options.strong;
   const double threshold = mean_strength(contacts, measure);
   const std::size_t n = network.body_position.size(), bottom = n, top = n + 1;
   // With the plates as nodes, bodies that share nothing but a plate would count as one group; so they are joined last.
@@ -103,7 +121,7 @@ Percolation percolation_of(const ContactNetwork& network, std::span<const Contac
     if (bodies >= 2.0) out.clusters += 1.0;
     out.largest_cluster = std::max(out.largest_cluster, bodies / static_cast<double>(n));
   }
-  for (const WallContact& c : network.wall_contacts) {
+  for (const WallContact& c : plate_links(network, options.level)) {
     const bool is_bottom = c.wall == network.box.bottom_plate, is_top = c.wall == network.box.top_plate;
     if ((is_bottom || is_top) && strength(c, measure) > threshold) {
       groups.join(static_cast<std::size_t>(c.body), is_bottom ? bottom : top);

@@ -24,9 +24,6 @@ struct StrongNetwork {
   std::array<double, k_pair_kinds> load_composition{};  ///< the same weighted by the measure
 };
 
-/// What is compared with the threshold, N: f_n or |f|.
-double strength_of(const Contact& contact, StrongMeasure measure);
-
 /// 1 for each contact whose measure exceeds the mean of all. Source: Radjai et al. (1998), with f_n.
 std::vector<unsigned char> strong_contacts(std::span<const Contact> contacts, StrongMeasure measure);
 
@@ -48,8 +45,9 @@ struct Percolation {
   double largest_cluster = 0.0;  ///< share of the bodies in the largest group
 };
 
-/// contacts: those of the network, or its merged pairs. Each contact with a plate is a link when its own measure exceeds the
-/// threshold too.
-Percolation percolation_of(const ContactNetwork& network, std::span<const Contact> contacts, StrongMeasure measure);
+/// contacts: those of the network, or its merged pairs. A contact with a plate is a link when its own measure exceeds the
+/// threshold too; at the level of pairs the force is that of all contacts of the body with the plate.
+Percolation percolation_of(const ContactNetwork& network, std::span<const Contact> contacts,
+                           const MicroOptions& options);
 
 }  // namespace dem

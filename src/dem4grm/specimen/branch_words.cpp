@@ -15,9 +15,10 @@ std::vector<double> rest_stresses(const SpecimenOrder& order, double ratio) {
 }
 
 std::string branch_state_name(double friction, const std::vector<double>& path, std::size_t station) {
-  std::string name = fmt::format("friction-{:.4f}-stress", friction);
-  for (std::size_t k = 0; k <= station; ++k) name += fmt::format("-{:g}", path[k] * 1e-3);
-  return name + "-kPa";
+  // All digits: states of two values must never share a name.
+  std::string name = fmt::format("friction-{}-stress", friction);
+  for (std::size_t k = 0; k <= station; ++k) name += fmt::format("-{}", path[k]);
+  return name + "-Pa";
 }
 
 std::string branch_label(std::size_t number, double friction) {

@@ -14,13 +14,13 @@ namespace dem {
 namespace {
 
 constexpr double k_bend = 0.1;              // friction at which about half of the way is done
-constexpr double k_friction_step = 1e-4;    // trials are round numbers, which can be typed into a case
+constexpr double k_trials_per_unit = 1e4;   // trials are round numbers, which can be typed into a case
 constexpr double k_spacing = 0.005;         // of trials over their friction, and at least
 constexpr double k_least_spacing = 0.0003;  // this: enough for another specimen
 
 double bent(double friction) { return friction / (friction + k_bend); }
 double unbent(double x) { return k_bend * x / (1.0 - x); }
-double rounded(double friction) { return std::floor(friction / k_friction_step + 0.5) * k_friction_step; }
+double rounded(double friction) { return std::floor(friction * k_trials_per_unit + 0.5) / k_trials_per_unit; }
 
 /// A specimen on the bent axis and how much too dense it is.
 struct Point {
@@ -48,8 +48,9 @@ double crossing(std::span<const Point> points) {
   return low.x + (high.x - low.x) * std::clamp(share, 0.25, 0.75);
 }
 
-/// The nearest friction that keeps its distance from all that were tried; below and above in turn.
-double free_friction(std::span<const Branch> done, double friction) {
+/// The nearest friction that keeps its distance from all that were tried; below and above in turn. None when the range
+/// is full.
+std::optional<double> free_friction(std::span<const Branch> done, double friction) {
   const double spacing = std::max(k_least_spacing, k_spacing * friction);
   const double least = done[0].friction, most = done[1].friction;
   for (int k = 0; k * spacing < most - least; ++k) {
@@ -61,7 +62,7 @@ double free_friction(std::span<const Branch> done, double friction) {
       if (is_free && place > least && place < most) return place;
     }
   }
-  return rounded(friction);
+  return std::nullopt;
 }
 
 std::string trials_text(std::span<const Branch> done) {
@@ -89,13 +90,15 @@ std::optional<double> next_friction(std::span<const Branch> done, const DensityT
   }
   const std::vector<Point> points = points_of(done, target.relative_density);
   if (done.size() > 2 && std::fabs(points.back().miss) <= target.tolerance) return std::nullopt;
-  if (done.size() - 2 >= k_most_trials) {
+  std::optional<double> next;
+  if (done.size() - 2 < k_most_trials) next = free_friction(done, unbent(crossing(points)));
+  if (!next) {
     throw PhysicsError(fmt::format(
-        "no preparation friction gave a relative density of {} within {}; raise specimen.relative_density_tolerance, "
-        "or choose another seed or a larger specimen. Tried:{}",
+        "no preparation friction gave a relative density of {} within {}; raise specimen.relative_density_tolerance "
+        "(with --store these specimens are not made again), or choose another seed or a larger specimen. Tried:{}",
         target.relative_density, target.tolerance, trials_text(done)));
   }
-  return free_friction(done, unbent(crossing(points)));
+  return next;
 }
 
 }  // namespace dem

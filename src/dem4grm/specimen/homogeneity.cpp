@@ -13,8 +13,7 @@ namespace {
 
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 // Exceeded by 1.1 % = exp(-4.5): chi-squared of 5 degrees above 14.85, of 2 degrees above 9.
-constexpr double k_deviator_noise = 1.723;   // sqrt(14.85 / 5)
-constexpr double k_amplitude_noise = 4.243;  // 3 sqrt(2)
+constexpr double k_deviator_noise = 1.723;  // sqrt(14.85 / 5)
 
 double standard_deviation(std::span<const double> values) {
   if (values.size() < 2) return k_unknown;
@@ -64,7 +63,7 @@ FabricMeasure measure_fabric(std::span<const Vec3> normals) {
   FabricMeasure out;
   if (normals.empty()) return out;
   const auto n = static_cast<double>(normals.size());
-  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0, cosine = 0.0, sine = 0.0;
+  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
   for (const Vec3& v : normals) {
     xx += v.x * v.x / n;
     yy += v.y * v.y / n;
@@ -72,11 +71,6 @@ FabricMeasure measure_fabric(std::span<const Vec3> normals) {
     xy += v.x * v.y / n;
     xz += v.x * v.z / n;
     yz += v.y * v.z / n;
-    const double in_plane = v.x * v.x + v.z * v.z;
-    if (in_plane == 0.0) continue;
-    // cos 2t and sin 2t of the angle from x to z.
-    cosine += 2.0 / n * (v.x * v.x - v.z * v.z) / in_plane;
-    sine += 2.0 / n * 2.0 * v.x * v.z / in_plane;
   }
   const double third = 1.0 / 3.0;
   const double squares = (xx - third) * (xx - third) + (yy - third) * (yy - third) + (zz - third) * (zz - third) +
@@ -84,8 +78,6 @@ FabricMeasure measure_fabric(std::span<const Vec3> normals) {
   out.contacts = static_cast<int>(normals.size());
   out.deviator = std::sqrt(1.5 * squares);
   out.deviator_noise = k_deviator_noise / std::sqrt(n);
-  out.amplitude_xz = std::sqrt(cosine * cosine + sine * sine);
-  out.amplitude_xz_noise = k_amplitude_noise / std::sqrt(n);
   return out;
 }
 

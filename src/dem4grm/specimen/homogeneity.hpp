@@ -7,11 +7,10 @@
 //   layering   root mean square of (fraction / mean fraction - 1) over the layers between 0.5 and 2.5 mean grain sizes
 //              from the walls; 0.43 for square layers of touching spheres
 //   fabric     F = mean of n n over the contacts between different bodies, D = F - 1/3; deviator sqrt(3/2 D:D), 1 when
-//              all normals are parallel; amplitude a of the projection into the x-z plane, E = (1 + a cos 2(t - t_a))/2 pi
-//              by a cos 2 t_a = 2/N sum cos 2t and the same with the sine
-//   noise      what 1.1 % of isotropic sets of N independent contacts exceed: 1.72 / sqrt(N) for the deviator (N D:D 15/2
-//              has the chi-squared distribution of 5 degrees), 3 / sqrt(N/2) for the amplitude. Contacts of one pair of
-//              grains are not independent, so a rubber specimen may lie somewhat above it.
+//              all normals are parallel. The shear plane is left to micro/fabric.hpp.
+//   noise      what 1.1 % of isotropic sets of N independent contacts exceed: 1.72 / sqrt(N) (N D:D 15/2 has the chi-squared
+//              distribution of 5 degrees). Contacts of one pair of grains are not independent, so a rubber specimen may lie
+//              somewhat above it.
 //
 // A specimen that has been compressed between plates is not isotropic: contacts prefer the direction of the load.
 #pragma once
@@ -27,7 +26,6 @@ namespace dem {
 struct FabricMeasure {
   int contacts = 0;
   double deviator = 0.0, deviator_noise = 0.0;
-  double amplitude_xz = 0.0, amplitude_xz_noise = 0.0;
 };
 
 /// From the unit normals of contacts; all 0 without contacts.

@@ -156,7 +156,7 @@ TEST(CaseErrors, DensityOrFriction) {
   EXPECT_EQ(mistake("specimen", "relative_density = 50"),
             "2:20: error: specimen.relative_density = 50 is outside [0.02, 0.98]");
   EXPECT_EQ(mistake("specimen", "smallest_friction = 2.5"),
-            "2:21: error: specimen.smallest_friction = 2.5 must be below specimen.largest_friction = 2");
+            "2:21: error: specimen.smallest_friction = 2.5 must be 0.01 below specimen.largest_friction = 2");
   EXPECT_EQ(mistake("specimen", "load_steps = [\"60 kPa\", \"30 kPa\"]"),
             "2:14: error: specimen.load_steps must rise from entry to entry");
   EXPECT_EQ(mistake("specimen", "dr = 0.5"),

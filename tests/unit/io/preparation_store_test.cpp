@@ -9,6 +9,8 @@
 #include <functional>
 #include <vector>
 
+#include "dem4grm/specimen/branch_words.hpp"
+
 namespace dem {
 namespace {
 
@@ -80,6 +82,24 @@ TEST_F(PreparationStoreTest, IsSharedByCasesThatWouldArriveAtTheSameState) {
     decisive[k](test);
     EXPECT_FALSE(PreparationStore(folder_, test).fetch("fill")) << "change " << k;
   }
+}
+
+TEST_F(PreparationStoreTest, BelongsToOneProgram) {
+  PreparationStore(folder_, any_case(), "program A").keep("fill", some_state(0.3));
+  EXPECT_TRUE(PreparationStore(folder_, any_case(), "program A").fetch("fill"));
+  EXPECT_FALSE(PreparationStore(folder_, any_case(), "program B").fetch("fill"));
+  EXPECT_FALSE(PreparationStore(folder_, any_case()).fetch("fill"));
+  PreparationStore(folder_, any_case(), "").keep("fill", some_state(0.3));
+  EXPECT_FALSE(PreparationStore(folder_, any_case(), "").fetch("fill")) << "a program that cannot be told from others";
+  EXPECT_EQ(program_fingerprint().size(), 32U);
+}
+
+TEST(BranchStateName, DiffersForEveryFrictionAndPath) {
+  const std::vector<double> path{27e3, 54e3};
+  EXPECT_EQ(branch_state_name(0.0503, path, 0), "friction-0.0503-stress-27000-Pa");
+  EXPECT_EQ(branch_state_name(0.0503, path, 1), "friction-0.0503-stress-27000-54000-Pa");
+  EXPECT_NE(branch_state_name(0.0, path, 0), branch_state_name(4e-5, path, 0));
+  EXPECT_NE(branch_state_name(0.0, {55e3}, 0), branch_state_name(0.0, {0.55 * 100e3}, 0));
 }
 
 TEST_F(PreparationStoreTest, PassesOverDamagedFiles) {

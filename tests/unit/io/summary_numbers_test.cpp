@@ -56,8 +56,6 @@ TEST(Summary, HasAllPromisedNames) {
                            "contacts_before_shear",
                            "fabric_deviator_before_shear",
                            "fabric_deviator_noise",
-                           "fabric_amplitude_xz_before_shear",
-                           "fabric_amplitude_xz_noise",
                            "largest_overlap_before_shear",
                            "caught_balls_before_shear",
                            "normal_stress_target_kPa",

@@ -224,7 +224,7 @@ TEST(StrongNetworkSpan, FromPlateToPlateThroughStrongContactsOnly) {
     network.wall_contacts.push_back(c);
   };
   on_wall(0, 0, 4.0);
-  const auto found = [&] { return percolation_of(network, network.contacts, StrongMeasure::normal_force); };
+  const auto found = [&] { return percolation_of(network, network.contacts, {}); };
   EXPECT_FALSE(found().spans);
   on_wall(2, 1, 2.0);  // weak
   EXPECT_FALSE(found().spans);
@@ -234,6 +234,13 @@ TEST(StrongNetworkSpan, FromPlateToPlateThroughStrongContactsOnly) {
   EXPECT_TRUE(found().spans);
   EXPECT_EQ(found().clusters, 1.0);
   EXPECT_EQ(found().largest_cluster, 0.6);
+  // Three weak contacts of one body with a plate bear together more than the mean.
+  network.wall_contacts.pop_back();
+  on_wall(2, 1, 0.9);
+  on_wall(2, 1, 0.9);
+  EXPECT_FALSE(found().spans);
+  EXPECT_TRUE(percolation_of(network, network.contacts, {.level = ContactLevel::pair}).spans);  // 2 + 0.9 + 0.9 > 3
+  on_wall(2, 1, 3.5);
   network.contacts[1].normal_force = 2.0;  // mean 7/3: the column is cut
   EXPECT_FALSE(found().spans);
 }

@@ -149,6 +149,17 @@ TEST_P(LooksAtTheBox, OrderOfContactsChangesNothing) {
   EXPECT_NEAR(found.of_all().shear_direction, straight_.of_all().shear_direction, 1e-10);
 }
 
+/// The network seen in a mirror across the plane x = 0.
+ContactNetwork mirrored(ContactNetwork network) {
+  const auto mirror = [](auto& c) {
+    for (Vec3* v : {&c.point, &c.normal, &c.shear_force, &c.branch}) v->x = -v->x;
+  };
+  for (Contact& c : network.contacts) mirror(c);
+  for (WallContact& c : network.wall_contacts) mirror(c);
+  for (Vec3& x : network.body_position) x.x = -x.x;
+  return network;
+}
+
 TEST_P(LooksAtTheBox, MirrorTurnsAnglesAndShearStressRound) {
   const MicroState other{mirrored(state_of_box().network), state_of_box().rubber};
   const MicroNumbers found = analyse(other, options_).numbers;
