@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dem4grm/specimen/branch_words.hpp"
+#include "support/run_program.hpp"
 
 namespace dem {
 namespace {
@@ -35,9 +36,8 @@ double number_in_state(std::optional<StateArchive> state) {
 
 class PreparationStoreTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::remove_all(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "preparation_store";
+  test::TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(PreparationStoreTest, GivesBackWhatWasKept) {
