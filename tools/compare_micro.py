@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws several direct shear runs side by side: `tools/compare_micro.py runs/a runs/b [-o picture.png]`.
+
+All curves against shear displacement: stress, volume, anisotropies with their directions, friction, contacts, the strong
+network by kind and the strain of the rubber. Reads shear.csv, micro.csv and summary.json. Needs python3-matplotlib.
+"""
+import argparse
+import csv
+import json
+import pathlib
+import sys
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+COLOURS = ("#31475e", "#c2410c", "#0e7490", "#7c3aed", "#b9a27f", "#4d7c0f")
+KINDS = {"gg": "gravel-gravel", "gr": "gravel-rubber", "rr": "rubber-rubber"}
+
+# Title, axis label, and columns of micro.csv with the style of each.
+PANELS = (
+    ("Fabric a (dotted: noise)", "", (("a_all", "-"), ("a_noise_all", ":"))),
+    ("Normal force a_n", "", (("a_n_all", "-"),)),
+    ("Tangential force a_t", "", (("a_t_all", "-"),)),
+    ("Scatter about the curves: a_n (dashed: a_t)", "", (("a_n_residual_all", "-"), ("a_t_residual_all", "--"))),
+    ("Direction of contacts theta_a", "degrees", (("theta_a_all_deg", "-"),)),
+    ("Direction of normal forces theta_n", "degrees", (("theta_n_all_deg", "-"),)),
+    ("Direction of tangential forces theta_t", "degrees", (("theta_t_all_deg", "-"),)),
+    ("q/p of the contacts (dashed: of fabric and forces)", "", (("stress_ratio", "-"), ("stress_ratio_of_fabric", "--"))),
+    ("Bulk friction", "", (("bulk_friction_all", "-"),)),
+    ("Sliding contacts (dashed: rattlers)", "share", (("sliding_all", "-"), ("rattlers", "--"))),
+    ("Contacts of a grain (dashed: neighbours)", "", (("coordination", "-"), ("coordination_pairs", "--"))),
+    ("Strain of the bonds (dashed: volume of the grains)", "", (("bond_strain", "-"), ("volume_strain", "--"))),
+)
+
+
+class Run:
+    def __init__(self, folder):
+        self.shear = read_csv(folder / "shear.csv")
+        self.micro = read_csv(folder / "micro.csv")
+        summary = json.loads((folder / "summary.json").read_text())
+        self.label = (f"VRC {100 * summary['rubber_content']:.0f} %, {summary['normal_stress_target_kPa']:g} kPa, "
+                      f"e {summary['void_ratio_before_shear']:.3f}")
+
+
+def read_csv(path):
+    with open(path, newline="") as file:
+        rows = list(csv.reader(file))
+    whole = [r for r in rows[1:] if len(r) == len(rows[0])]  # the last row of a running test may be half written
+    return {name: np.array([float(r[k]) for r in whole]) for k, name in enumerate(rows[0])}
+
+
+def draw_curves(axes, runs):
+    for run, colour in zip(runs, COLOURS):
+        u = run.shear["displacement_mm"]
+        axes[0].plot(u, run.shear["shear_stress_kPa"], color=colour, lw=0.9, label=run.label)
+        axes[1].plot(u, run.shear["vertical_displacement_mm"], color=colour)
+        axes[2].plot(run.micro["displacement_mm"], run.micro["stress_difference"], color=colour)
+        axes[3].plot(u, run.shear["inertial_number"], color=colour, lw=0.9)
+    axes[0].legend(fontsize=8, frameon=False)
+    titles = ("Shear stress, kPa", "Vertical displacement (dilation positive), mm",
+              "Contact against boundary stress, over sigma_n", "Inertial number")
+    for axis, title in zip(axes, titles):
+        axis.set_title(title, fontsize=9)
+
+
+def draw_panels(axes, runs):
+    for axis, (title, unit, columns) in zip(axes, PANELS):
+        for run, colour in zip(runs, COLOURS):
+            for name, style in columns:
+                axis.plot(run.micro["displacement_mm"], run.micro[name], style, color=colour, lw=1.1)
+        axis.set_title(title, fontsize=9)
+        axis.set_ylabel(unit, fontsize=8)
+
+
+def draw_strong(axes, runs):
+    """By number in the first panels, by load in the last: full lines g-g, dashed g-r, dotted r-r."""
+    for axis, (column, title) in zip(axes, (("strong_share", "Strong contacts by number"),
+                                            ("strong_load_share", "Strong contacts by load"))):
+        for run, colour in zip(runs, COLOURS):
+            for kind, style in zip(KINDS, ("-", "--", ":")):
+                axis.plot(run.micro["displacement_mm"], run.micro[f"{column}_{kind}"], style, color=colour, lw=1.1)
+        axis.set(ylim=(-0.02, 1.02))
+        axis.set_title(f"{title} (line g-g, dashed g-r, dotted r-r)", fontsize=9)
+    for run, colour in zip(runs, COLOURS):
+        axes[2].plot(run.micro["displacement_mm"], run.micro["strong_fraction"], color=colour)
+        axes[2].plot(run.micro["displacement_mm"], run.micro["strong_load"], "--", color=colour)
+        axes[3].plot(run.micro["displacement_mm"], run.micro["closed_second_neighbours"], color=colour)
+    axes[2].set_title("Share of strong contacts (dashed: of the load)", fontsize=9)
+    axes[3].set_title("Closed second neighbours in a rubber grain", fontsize=9)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folders", type=pathlib.Path, nargs="+", help="output folders of finished direct shear runs")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("comparison.png"))
+    options = parser.parse_args()
+    for folder in options.folders:
+        missing = [n for n in ("shear.csv", "micro.csv", "summary.json") if not (folder / n).exists()]
+        if missing:
+            print(f"{folder}: has no {', '.join(missing)}; it is no finished direct shear run", file=sys.stderr)
+            return 66
+    if len(options.folders) > len(COLOURS):
+        print(f"at most {len(COLOURS)} runs can be told apart", file=sys.stderr)
+        return 64
+    runs = [Run(folder) for folder in options.folders]
+    figure, axes = plt.subplots(5, 4, figsize=(17, 17), layout="constrained")
+    draw_curves(axes[0], runs)
+    draw_panels(axes[1:4].flat, runs)
+    draw_strong(axes[4], runs)
+    for axis in axes.flat:
+        axis.tick_params(labelsize=8)
+        axis.set_xlim(left=0)
+    for axis in axes[4]:
+        axis.set_xlabel("shear displacement, mm", fontsize=8)
+    figure.savefig(options.output, dpi=100)
+    print(options.output)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
