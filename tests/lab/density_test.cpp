@@ -10,31 +10,20 @@
 
 #include "dem4grm/core/random.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
+#include "support/tiny_shear_case.hpp"
 
 namespace dem {
 namespace {
 
 DirectShearCase density_case(double rubber_content) {
-  DirectShearCase test;
-  test.specimen.rubber_content = rubber_content;
+  DirectShearCase test = test::tiny_shear_case(rubber_content, 0.022, 0.020);
+  test.specimen.preparation_friction.reset();
   test.specimen.relative_density = 0.5;
   test.specimen.relative_density_tolerance = 0.08;  // some hundred grains scatter more than a real specimen
-  test.specimen.generation_void_ratio = 0.85;
-  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {5.0e-3, 1.0}};
-  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
-  test.box.length = test.box.width = 0.022;
-  test.box.height = 0.020;
-  test.box.upper_height = 0.040;
-  test.box.wing = 0.010;
-  test.shear.normal_stress = 60e3;
-  test.shear.velocity = 0.05;
   test.shear.displacement = 0.2e-3;
-  test.servo.shear_speed_cap = 0.25;
-  test.equilibrium.force_ratio = 0.01;
   test.equilibrium.plate_speed = 2e-3;
   test.equilibrium.stress_tolerance = 0.02;
   test.equilibrium.hold_steps = 300;
-  test.recording.frame_interval = 0.2e-3;
   return test;
 }
 

@@ -16,32 +16,19 @@
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/specimen/specimen.hpp"
+#include "support/tiny_shear_case.hpp"
 
 namespace dem {
 namespace {
 
 DirectShearCase tiny_case() {
-  DirectShearCase test;
-  test.specimen.rubber_content = 0.3;
-  test.specimen.preparation_friction = 0.3;
-  test.specimen.generation_void_ratio = 0.85;
-  test.specimen.gravel_grading = {{4.0e-3, 0.0}, {5.0e-3, 1.0}};
-  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
-  test.box.length = test.box.width = 0.020;
-  test.box.height = 0.018;
-  test.box.upper_height = 0.035;
-  test.box.wing = 0.010;
+  DirectShearCase test = test::tiny_shear_case(0.3, 0.020, 0.018);
   test.bond.form = BondForm::incremental;
   test.contact.hz_mode = 1;
-  test.shear.normal_stress = 60e3;
-  test.shear.velocity = 0.05;
   test.shear.displacement = 0.6e-3;
-  test.servo.shear_speed_cap = 0.25;
-  test.equilibrium.force_ratio = 0.01;
   test.equilibrium.plate_speed = 5e-3;
   test.equilibrium.stress_tolerance = 0.05;
   test.equilibrium.hold_steps = 200;
-  test.recording.frame_interval = 0.2e-3;
   test.recording.micro_interval = 0.1e-3;
   return test;
 }

@@ -117,20 +117,25 @@ class ValueReader {
 
   bool is_list() const { return node_.kind == TomlKind::array && node_.items.size() <= k_most_items; }
 
-  bool read_grading(const GradingSlot& slot) {
+  /// Reads the file that the key names and takes over its problems; what it holds goes to `take`.
+  template <class Read, class Take>
+  bool read_file(std::string& name, const Read& read, const Take& take) {
     if (!scalar_.is_sound_text(node_)) return false;
-    GradingFile file;
+    name = node_.text;  // also of a file that is wrong: rules of other keys ask whether one is named
     try {
-      file = read_grading_file(folder_ / node_.text);
+      auto file = read(folder_ / node_.text);
+      for (std::string& text : file.problems) problems_.rendered_error(node_.place, std::move(text));
+      take(file);
+      return file.problems.empty();
     } catch (const Error& error) {
       problems_.error(node_.place, fmt::format("{}: {}", key_.path(), error.what()),
                       "paths count from the folder of the case file");
       return false;
     }
-    for (std::string& text : file.problems) problems_.rendered_error(node_.place, std::move(text));
-    *slot.points = std::move(file.points);
-    *slot.file = node_.text;
-    return file.problems.empty();
+  }
+
+  bool read_grading(const GradingSlot& slot) {
+    return read_file(*slot.file, read_grading_file, [&](GradingFile& file) { *slot.points = std::move(file.points); });
   }
 
   bool inline_grading(const GradingSlot& slot) {
@@ -174,19 +179,7 @@ class ValueReader {
   }
 
   bool read_clumps(const ClumpTemplatesSlot& slot) {
-    if (!scalar_.is_sound_text(node_)) return false;
-    *slot.file = node_.text;
-    ClumpFile file;
-    try {
-      file = read_clump_file(folder_ / node_.text);
-    } catch (const Error& error) {
-      problems_.error(node_.place, fmt::format("{}: {}", key_.path(), error.what()),
-                      "paths count from the folder of the case file");
-      return false;
-    }
-    for (std::string& text : file.problems) problems_.rendered_error(node_.place, std::move(text));
-    *slot.shapes = std::move(file.shapes);
-    return file.problems.empty();
+    return read_file(*slot.file, read_clump_file, [&](ClumpFile& file) { *slot.shapes = std::move(file.shapes); });
   }
 
   bool inline_clumps(const ClumpTemplatesSlot& slot) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dem4grm/lab/case.hpp"
-#include "dem4grm/specimen/homogeneity.hpp"
+#include "dem4grm/micro/homogeneity.hpp"
 #include "dem4grm/specimen/packing.hpp"
 
 namespace dem {

@@ -102,7 +102,7 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
 Homogeneity examine(const DirectShearCase& test, const Specimen& specimen) {
   const Simulation& s = *specimen.simulation;
   const Bounds room{{}, {test.box.length, test.box.width, s.walls[ShearBox::k_top_plate].corner.z}};
-  return measure_homogeneity(packing_of(s), contact_normals(s), room, specimen.report.mean_size,
+  return measure_homogeneity(packing_of(s), normals_of(contact_network_of(s).contacts), room, specimen.report.mean_size,
                              test.rubber.density / test.rubber_solid_density);
 }
 

@@ -6,7 +6,7 @@
 
 #include "dem4grm/core/state_archive.hpp"
 #include "dem4grm/lab/observer.hpp"
-#include "dem4grm/specimen/homogeneity.hpp"
+#include "dem4grm/micro/homogeneity.hpp"
 
 namespace dem {
 

@@ -7,7 +7,7 @@
 
 #include "dem4grm/lab/case.hpp"
 #include "dem4grm/lab/observer.hpp"
-#include "dem4grm/specimen/homogeneity.hpp"
+#include "dem4grm/micro/homogeneity.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {

@@ -152,6 +152,13 @@ std::vector<Contact> merge_pairs(std::span<const Contact> contacts) {
   return out;
 }
 
+std::vector<Vec3> normals_of(std::span<const Contact> contacts) {
+  std::vector<Vec3> out;
+  out.reserve(contacts.size());
+  for (const Contact& c : contacts) out.push_back(c.normal);
+  return out;
+}
+
 std::vector<Contact> contacts_of_kind(std::span<const Contact> contacts, PairKind kind) {
   std::vector<Contact> out;
   out.reserve(static_cast<std::size_t>(

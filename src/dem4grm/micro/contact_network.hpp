@@ -86,6 +86,9 @@ SampleBox find_sample_box(std::span<const Wall> walls);
 /// Contacts whose weighted normals cancel keep the normal of the first one.
 std::vector<Contact> merge_pairs(std::span<const Contact> contacts);
 
+/// Their normals, in their order.
+std::vector<Vec3> normals_of(std::span<const Contact> contacts);
+
 /// The contacts of one kind, in their order.
 std::vector<Contact> contacts_of_kind(std::span<const Contact> contacts, PairKind kind);
 

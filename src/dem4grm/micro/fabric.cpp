@@ -21,11 +21,13 @@ double isotropy_bound(double contacts) { return 4.0 * std::sqrt(2.0 / contacts);
 
 double direction_error(double contacts, double amplitude) { return std::sqrt(2.0 / contacts) / (2.0 * amplitude); }
 
-Tensor3 fabric_tensor(std::span<const Contact> contacts) {
+Tensor3 fabric_tensor(std::span<const Vec3> normals) {
   Tensor3 sum;
-  for (const Contact& c : contacts) sum += outer(c.normal, c.normal);
-  return contacts.empty() ? sum : sum * (1.0 / static_cast<double>(contacts.size()));
+  for (const Vec3& n : normals) sum += outer(n, n);
+  return normals.empty() ? sum : sum * (1.0 / static_cast<double>(normals.size()));
 }
+
+Tensor3 fabric_tensor(std::span<const Contact> contacts) { return fabric_tensor(normals_of(contacts)); }
 
 Tensor3 fabric_tensor(std::span<const Contact> contacts, std::span<const unsigned char> flags, bool wanted) {
   Tensor3 sum;

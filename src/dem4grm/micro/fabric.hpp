@@ -27,6 +27,8 @@ double direction_error(double contacts, double amplitude);
 
 /// formula:  <n_i n_j>, trace 1; zero without contacts. Source: Satake (1982).
 Tensor3 fabric_tensor(std::span<const Contact> contacts);
+/// The same from unit normals.
+Tensor3 fabric_tensor(std::span<const Vec3> normals);
 /// Of the contacts whose flag is the wanted one. flags: one for each contact.
 Tensor3 fabric_tensor(std::span<const Contact> contacts, std::span<const unsigned char> flags, bool wanted);
 

@@ -17,17 +17,4 @@ Packing packing_of(const Simulation& s) {
   return packing;
 }
 
-std::vector<Vec3> contact_normals(const Simulation& s) {
-  std::vector<Vec3> normals;
-  const ContactTable& t = s.contacts;
-  for (std::size_t row = 0; row < t.n_pairs(); ++row) {
-    const Vec3 force = t.force(row);
-    if (force.x == 0.0 && force.y == 0.0 && force.z == 0.0) continue;
-    const Vec3 between = s.balls.position(s.balls.index_of_id(second_of(t.pairs[row]))) -
-                         s.balls.position(s.balls.index_of_id(first_of(t.pairs[row])));
-    normals.push_back(between * (1.0 / norm(between)));
-  }
-  return normals;
-}
-
 }  // namespace dem

@@ -37,7 +37,4 @@ void for_each_clump(const Packing& packing, const Use& use) {
   }
 }
 
-/// Unit normals of the contacts between different bodies that carry force, from the ball of lower id to the other.
-std::vector<Vec3> contact_normals(const Simulation& s);
-
 }  // namespace dem

@@ -72,6 +72,7 @@ TEST(ClumpFile, ReadsShapesInOrder) {
 }
 
 TEST(ClumpFile, AllProblemsComeAtOnceWithTheirPlaces) {
+  const std::string apart = "the pebbles do not hang together: nothing joins pebble 2 to pebble 1";
   EXPECT_EQ(faults_of("shape,x,y,z,radius\n"
                       "apart,0,0,0,1\napart,2.1,0,0,1\n"          // 2 and 3: do not touch
                       "flat,0,0,0,0\n"                            // 4
@@ -79,10 +80,7 @@ TEST(ClumpFile, AllProblemsComeAtOnceWithTheirPlaces) {
                       "T3,0,0,0,1\n"                              // 7
                       "egg,0,0,0,1\nball,0,0,0,1\negg,1,0,0,1\n"  // 10 comes again
                       "odd name,0,0,2e6,1\n"),                    // 11
-            // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one message over two lines
-            (Faults{"c.csv:3:1: error: shape \"apart\": the pebbles do not hang together: nothing joins "
-                    "pebble 2 to pebble 1",
-                    "c.csv:4:12: error: radius 0 is not positive",
+            (Faults{"c.csv:3:1: error: shape \"apart\": " + apart, "c.csv:4:12: error: radius 0 is not positive",
                     "c.csv:6:1: error: shape \"nest\": pebble 2 lies inside pebble 1 and can be left out",
                     "c.csv:7:1: error: \"T3\" is a shape of the program; choose another name",
                     "c.csv:10:1: error: shape \"egg\" is there already; the pebbles of one shape stand together",

@@ -58,6 +58,32 @@ TEST(LiveNetwork, HoldsEveryContactOnceAndNothingElse) {
   }
 }
 
+TEST(LiveNetwork, AContactSlidesFromItsCoulombLimitOn) {
+  // Two heavy spheres pressed together by d and moved past each other. Mindlin: k_s / k_n = 2 (1 - nu) / (2 - nu), and
+  // Hertz: F_n = (2/3) k_n d, so the spring is full after u = mu (2/3) d (2 - nu) / (2 (1 - nu)).
+  const double r = 2.5e-3, d = 20e-6, nu = 0.3;
+  for (const double friction : {0.2, 0.72}) {
+    const double full = friction * (2.0 / 3.0) * d * (2.0 - nu) / (2.0 * (1.0 - nu));
+    for (const double way : {0.5, 0.9, 1.1, 2.0}) {  // of the displacement that fills the spring
+      Scene scene = test::model_scene();
+      scene.gravel.friction = friction;
+      scene.gravel.density = 2.7e6;  // forces hardly move them
+      test::add_sphere(scene, {0, 0, 0}, r);
+      test::add_sphere(scene, {0, 0, 2.0 * r - d}, r);
+      Simulation s(scene);
+      s.set_time_step(1e-8);
+      constexpr int k_steps = 200;
+      test::set_motion(s, 1, {way * full / (k_steps * 1e-8), 0, 0});
+      for (int k = 0; k <= k_steps; ++k) s.step();  // the last step evaluates where the one before it led
+      const ContactNetwork network = contact_network_of(s);
+      ASSERT_EQ(network.contacts.size(), 1U);
+      const Contact& c = network.contacts.front();
+      EXPECT_EQ(c.is_sliding, way > 1.0) << "friction " << friction << ", way " << way;
+      EXPECT_NEAR(norm(c.shear_force) / (friction * c.normal_force), std::min(way, 1.0), 0.02);
+    }
+  }
+}
+
 TEST(LiveNetwork, SlidingContactsAreAtTheirLimitAndOthersBelow) {
   int sliding = 0, sticking = 0;
   for (const Contact& c : state_of_box().network.contacts) {

@@ -7,7 +7,7 @@
 //   layering   root mean square of (fraction / mean fraction - 1) over the layers between 0.5 and 2.5 mean grain sizes
 //              from the walls; 0.43 for square layers of touching spheres
 //   fabric     F = mean of n n over the contacts between different bodies, D = F - 1/3; deviator sqrt(3/2 D:D), 1 when
-//              all normals are parallel. The shear plane is left to micro/fabric.hpp.
+//              all normals are parallel. The shear plane is left to fabric.hpp.
 //   noise      what 1.1 % of isotropic sets of N independent contacts exceed: 1.72 / sqrt(N) (N D:D 15/2 has the chi-squared
 //              distribution of 5 degrees). Contacts of one pair of grains are not independent, so a rubber specimen may lie
 //              somewhat above it.

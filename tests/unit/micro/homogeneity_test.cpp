@@ -2,7 +2,7 @@
 // How even a specimen is: solid in cells and layers against closed forms, fabric against planted distributions, overlaps
 // against constructed ones.
 // Not tested here: the numbers of a real specimen (tests/lab/direct_shear_test.cpp has their way into the summary).
-#include "dem4grm/specimen/homogeneity.hpp"
+#include "dem4grm/micro/homogeneity.hpp"
 
 #include <cmath>
 #include <numbers>

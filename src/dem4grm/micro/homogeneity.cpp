@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "dem4grm/specimen/homogeneity.hpp"
+#include "dem4grm/micro/homogeneity.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "dem4grm/micro/fabric.hpp"
 #include "dem4grm/search/candidates.hpp"
 
 namespace dem {
@@ -60,25 +61,9 @@ void take_cells(const SolidDistribution& solid, Homogeneity& out) {
 }  // namespace
 
 FabricMeasure measure_fabric(std::span<const Vec3> normals) {
-  FabricMeasure out;
-  if (normals.empty()) return out;
-  const auto n = static_cast<double>(normals.size());
-  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
-  for (const Vec3& v : normals) {
-    xx += v.x * v.x / n;
-    yy += v.y * v.y / n;
-    zz += v.z * v.z / n;
-    xy += v.x * v.y / n;
-    xz += v.x * v.z / n;
-    yz += v.y * v.z / n;
-  }
-  const double third = 1.0 / 3.0;
-  const double squares = (xx - third) * (xx - third) + (yy - third) * (yy - third) + (zz - third) * (zz - third) +
-                         2.0 * (xy * xy + xz * xz + yz * yz);
-  out.contacts = static_cast<int>(normals.size());
-  out.deviator = std::sqrt(1.5 * squares);
-  out.deviator_noise = k_deviator_noise / std::sqrt(n);
-  return out;
+  if (normals.empty()) return {};
+  return {static_cast<int>(normals.size()), deviator_size(fabric_tensor(normals)),
+          k_deviator_noise / std::sqrt(static_cast<double>(normals.size()))};
 }
 
 OverlapMeasure measure_overlaps(const Packing& packing) {
