@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast is each hot loop by itself? Bonds, contacts, ordered sums and the search of neighbours, on the specimen of an
-// output folder or on a dense assembly of a case.
+// How fast is each hot loop by itself? Bonds, contacts, ordered sums, the same sums without order and the search of
+// neighbours, on the specimen of an output folder or on a dense assembly of a case.
 //
 //   bench_kernels FOLDER|CASE [threads] [repeats]
 //
 // Nothing moves: every loop runs again and again on the same state. Prints one CSV row per loop: fastest and median time
 // in microseconds over all repeats, the number of its items and the fastest time per item in nanoseconds.
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "dem4grm/core/blocks.hpp"
@@ -39,6 +41,29 @@ void run_sums(dem::Simulation& s, Kept& kept) {
   });
 }
 
+/// What the ordered sums would be without their order: every row adds to both its bodies at once, by atomic additions.
+void run_atomic_sums(const dem::Simulation& s, std::vector<std::array<double, 8>>& loads) {
+  const dem::ContactTable& t = s.contacts;
+  const auto n_loads = static_cast<std::int64_t>(loads.size()), n_rows = static_cast<std::int64_t>(t.n_pairs());
+  const auto add = [&](int ball, const dem::Vec3& force, const dem::Vec3& torque) {
+    double* to = loads[static_cast<std::size_t>(ball)].data();
+    const double values[6] = {force.x, force.y, force.z, torque.x, torque.y, torque.z};
+    for (std::size_t c = 0; c < 6; ++c) {
+#pragma omp atomic
+      to[c] += values[c];
+    }
+  };
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < n_loads; ++k) loads[static_cast<std::size_t>(k)] = {};
+#pragma omp parallel for schedule(static)
+  for (std::int64_t k = 0; k < n_rows; ++k) {
+    const auto row = static_cast<std::size_t>(k);
+    const dem::Vec3 force = t.force(row), couple = t.couple(row);
+    add(dem::first_of(t.pairs[row]), force, couple * t.lever_i(row));
+    add(dem::second_of(t.pairs[row]), -force, couple * t.lever_j(row));
+  }
+}
+
 template <class Work>
 void measure(const std::string& common, const char* name, std::size_t items, int repeats, Work&& work) {
   if (items == 0) return;
@@ -65,6 +90,8 @@ void measure_all(const std::string& source, int repeats) {
   measure(common, "wall contacts", s.contacts.wall_pairs.size(), repeats, [&] { dem::evaluate_wall_contacts(s); });
   const auto references = static_cast<std::size_t>(s.references.start[blocks]);
   measure(common, "ordered sums", references, repeats, [&] { run_sums(s, kept); });
+  std::vector<std::array<double, 8>> loads(static_cast<std::size_t>(s.balls.n_balls()));
+  measure(common, "atomic sums", 2 * s.contacts.n_pairs(), repeats, [&] { run_atomic_sums(s, loads); });
   measure(common, "search", static_cast<std::size_t>(s.balls.n_balls()), std::max(repeats / 20, 3),
           [&] { s.rebuild_candidates(); });
 }

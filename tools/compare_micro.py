@@ -20,15 +20,16 @@ import numpy as np
 COLOURS = ("#31475e", "#c2410c", "#0e7490", "#7c3aed", "#b9a27f", "#4d7c0f")
 KINDS = {"gg": "gravel-gravel", "gr": "gravel-rubber", "rr": "rubber-rubber"}
 
-# Title, axis label, and columns of micro.csv with the style of each.
+# Title, axis label, and columns of micro.csv with the style of each. Directions are points: they are known modulo 180 degrees,
+# those of the tangential forces modulo 90, and a line would leap.
 PANELS = (
     ("Fabric a (dotted: noise)", "", (("a_all", "-"), ("a_noise_all", ":"))),
     ("Normal force a_n", "", (("a_n_all", "-"),)),
     ("Tangential force a_t", "", (("a_t_all", "-"),)),
     ("Scatter about the curves: a_n (dashed: a_t)", "", (("a_n_residual_all", "-"), ("a_t_residual_all", "--"))),
-    ("Direction of contacts theta_a", "degrees", (("theta_a_all_deg", "-"),)),
-    ("Direction of normal forces theta_n", "degrees", (("theta_n_all_deg", "-"),)),
-    ("Direction of tangential forces theta_t", "degrees", (("theta_t_all_deg", "-"),)),
+    ("Direction of contacts theta_a", "degrees", (("theta_a_all_deg", "."),)),
+    ("Direction of normal forces theta_n", "degrees", (("theta_n_all_deg", "."),)),
+    ("Direction of tangential forces theta_t", "degrees", (("theta_t_all_deg", "."),)),
     ("q/p of the contacts (dashed: of fabric and forces)", "", (("stress_ratio", "-"), ("stress_ratio_of_fabric", "--"))),
     ("Bulk friction", "", (("bulk_friction_all", "-"),)),
     ("Sliding contacts (dashed: rattlers)", "share", (("sliding_all", "-"), ("rattlers", "--"))),
@@ -71,7 +72,7 @@ def draw_panels(axes, runs):
     for axis, (title, unit, columns) in zip(axes, PANELS):
         for run, colour in zip(runs, COLOURS):
             for name, style in columns:
-                axis.plot(run.micro["displacement_mm"], run.micro[name], style, color=colour, lw=1.1)
+                axis.plot(run.micro["displacement_mm"], run.micro[name], style, color=colour, lw=1.1, ms=3)
         axis.set_title(title, fontsize=9)
         axis.set_ylabel(unit, fontsize=8)
 

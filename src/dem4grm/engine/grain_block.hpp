@@ -60,6 +60,10 @@ struct alignas(64) BlockLosses {
   double dashpot[k_lanes] = {};
 };
 
+/// Contacts of second neighbours within the grains of one block, with their history (second_neighbours.cpp).
+void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g, BlockForces& out,
+                           BlockLosses& losses);
+
 /// Bonds of one block in the history-free form (grain_bonds.cpp).
 void add_history_free_bonds(const BondParameters& p, const GrainBlock& g, double dt, BlockForces& out,
                             BlockLosses& losses);

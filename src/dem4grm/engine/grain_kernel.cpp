@@ -13,73 +13,6 @@ namespace dem {
 
 namespace {
 
-/// Squared distance of a pair in every lane.
-DEM_INLINE void squared_distances(const GrainBlock& g, std::size_t i, std::size_t j, double* d2) {
-#pragma omp simd
-  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
-    const Vec3 d = load3(g.x, g.y, g.z, j + lane) - load3(g.x, g.y, g.z, i + lane);
-    d2[lane] = dot(d, d);
-  }
-}
-
-DEM_INLINE bool any_below(const double* values, double limit) {
-  std::int64_t any = 0;
-#pragma omp simd reduction(| : any)
-  for (std::size_t lane = 0; lane < k_lanes; ++lane) any |= values[lane] < limit ? 1 : 0;
-  return any != 0;
-}
-
-/// Bit l is set when value l is below the limit.
-unsigned char lanes_below(const double* values, double limit) {
-  unsigned bits = 0;
-  for (std::size_t lane = 0; lane < k_lanes; ++lane) bits |= (values[lane] < limit ? 1U : 0U) << lane;
-  return static_cast<unsigned char>(bits);
-}
-
-/// Hertz-Mindlin contact of the 66 second-neighbour pairs. A pair that is open in all lanes costs only its distance
-/// test; its history is read and written only while some lane touches.
-template <HertzOptions options>
-void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g, BlockForces& out,
-                           BlockLosses& losses) {
-  constexpr std::size_t w = k_lanes;
-  const RubberSize& size = s.rubber_of_block(block);
-  const double r = size.ball_radius, reach2 = 4.0 * r * r, dt = s.last_dt;
-  const HertzParameters p = size.second_neighbour;
-  for (std::size_t q = 0; q < k_grain_second_neighbours; ++q) {
-    const SlotPair pair = k_second_neighbours_of_grain[q];
-    const std::size_t i = ball_at(pair.i, 0), j = ball_at(pair.j, 0);
-    unsigned char& had = s.grain_history.second_neighbour_touches[block * k_grain_second_neighbours + q];
-    alignas(64) double d2[k_lanes];
-    squared_distances(g, i, j, d2);
-    if (had == 0 && !any_below(d2, reach2)) continue;
-    had = lanes_below(d2, reach2);
-    double* __restrict h =
-        s.grain_history.second_neighbour_shear.data() + (block * k_grain_second_neighbours + q) * 3 * w;
-#pragma omp simd
-    for (std::size_t lane = 0; lane < w; ++lane) {
-      const std::size_t a = i + lane, b = j + lane;
-      const HertzGeometry geometry = hertz_geometry({load3(g.x, g.y, g.z, b) - load3(g.x, g.y, g.z, a),
-                                                     load3(g.vx, g.vy, g.vz, b) - load3(g.vx, g.vy, g.vz, a),
-                                                     load3(g.wx, g.wy, g.wz, a),
-                                                     load3(g.wx, g.wy, g.wz, b),
-                                                     r,
-                                                     r,
-                                                     {h[lane], h[w + lane], h[2 * w + lane]}},
-                                                    dt);
-      const HertzForce f = hertz_mindlin<options>(p, geometry.motion, dt);
-      h[lane] = f.shear.x;
-      h[w + lane] = f.shear.y;
-      h[2 * w + lane] = f.shear.z;
-      const Vec3 force = f.shear_total - geometry.normal * f.normal_total;
-      const Vec3 couple = cross(geometry.normal, f.shear_total);
-      add_load(out, load_at(pair.i, lane), force, couple * geometry.lever_i);
-      add_load(out, load_at(pair.j, lane), -force, couple * geometry.lever_j);
-      losses.slip[lane] += f.slip_work;
-      if constexpr (options.dashpots) losses.dashpot[lane] += f.dashpot_work;
-    }
-  }
-}
-
 /// Local damping, leapfrog and rotation of all balls of a block; returns the largest speed squared.
 double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, double radius, const double* inverse_mass,
                  double* damping_work) {
@@ -135,7 +68,7 @@ void advance_block(Simulation& s, std::size_t block) {
   const GrainBlock g = grain_block(s.balls, block);
   gather_contacts<options.dashpots>(s, block, contacts);
   begin_loads(contacts, load);
-  add_second_neighbours<options>(s, block, g, load, losses);
+  add_second_neighbours(s, block, g, load, losses);
   if (s.scene.bond.form == BondForm::incremental) {
     add_incremental_bonds(s, block, load, losses);
   } else {
