@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage: ball-wall contacts, ball by ball, so that an edge shared by two rectangles counts once.
-//
-// A ball may see several rectangles. Contacts on a face count, once where two pieces of a flat wall meet. A contact at
-// an edge or corner counts only if its point does not lie on a rectangle that the ball touches on its face (there it is
-// no edge at all: a flat wall made of two pieces pushes like one), nor coincides with an edge contact already counted
-// (a convex edge belongs to two rectangles).
+// Stage: ball-wall contacts. Ball by ball it is decided which rectangles push (wall_touches.hpp); those contacts are brought
+// together and evaluated k_contact_batch at a time, and the walls add up what they feel in the order of the rows.
 #include <algorithm>
-#include <array>
 
 #include "dem4grm/core/blocks.hpp"
 #include "dem4grm/engine/hertz_dispatch.hpp"
-#include "dem4grm/engine/simulation.hpp"
+#include "dem4grm/engine/wall_touches.hpp"
 
 namespace dem {
 
@@ -18,63 +13,9 @@ namespace {
 
 constexpr std::size_t k_groups_ahead = 8;
 
-/// One rectangle as the present ball sees it.
-struct Touch {
-  std::size_t row = 0;
-  int wall = 0;
-  WallView view;
-  bool counts = false;
-};
-
-using Touches = std::array<Touch, k_most_walls_per_ball>;
-
-bool touches(const WallView& view, double radius) {
-  return view.distance < radius && (!view.on_face || view.distance > -radius);
-}
-
-/// Decides which of the n touches of one ball count.
-void resolve(const std::vector<Wall>& walls, double radius, Touches& t, int n) {
-  const double tolerance = 1e-6 * radius;
-  for (int a = 0; a < n; ++a) {
-    Touch& edge = t[static_cast<std::size_t>(a)];
-    edge.counts = touches(edge.view, radius);
-    if (!edge.counts) continue;
-    for (int b = 0; b < n && edge.counts; ++b) {
-      const Touch& other = t[static_cast<std::size_t>(b)];
-      const bool other_touches = other.view.distance < radius;
-      if (a == b || !other_touches) continue;
-      if (edge.view.on_face) {
-        // A centre exactly over a seam projects into both pieces of the flat wall.
-        edge.counts = !(b < a && other.counts && other.view.on_face && dot(edge.view.away, other.view.away) > 0.5 &&
-                        norm(edge.view.nearest - other.view.nearest) <= tolerance);
-      } else if (other.view.on_face) {
-        edge.counts = !lies_on(walls[static_cast<std::size_t>(other.wall)], edge.view.nearest, tolerance);
-      } else if (b < a && other.counts) {
-        edge.counts = norm(edge.view.nearest - other.view.nearest) > tolerance;
-      }
-    }
-  }
-}
-
-/// A ball that rolls from one piece of a flat wall to the next takes its shear force along.
-void hand_over(ContactTable& c, const Touches& t, int n) {
-  for (int a = 0; a < n; ++a) {
-    const Touch& to = t[static_cast<std::size_t>(a)];
-    if (!to.counts || !to.view.on_face || dot(c.shear(to.row), c.shear(to.row)) > 0.0) continue;
-    for (int b = 0; b < n; ++b) {
-      const Touch& from = t[static_cast<std::size_t>(b)];
-      if (from.counts || dot(from.view.away, to.view.away) < 0.0) continue;
-      const Vec3 f = c.shear(from.row);
-      if (!(dot(f, f) > 0.0)) continue;
-      c.state[to.row].shear = f;
-      break;
-    }
-  }
-}
-
 /// Brings the stored shear force to the present contact plane. On a face the normal never turns; at an edge it turns
 /// with the ball, and projection at constant length follows it.
-Vec3 carried_at_wall(const Vec3& f, const Vec3& n, double half_twist) {
+DEM_INLINE Vec3 carried_at_wall(const Vec3& f, const Vec3& n, double half_twist) {
   const Vec3 flat = perpendicular(f, n);
   const double before = dot(f, f), after = dot(flat, flat);
   const double stretch = after > 0.0 ? std::sqrt(before / after) : 0.0;
@@ -97,35 +38,70 @@ void set_damping(ContactTable& c, std::size_t row, const Vec3& f) {
   c.damping_z[row] = f.z;
 }
 
-template <HertzOptions options>
-void evaluate_touch(Simulation& s, std::size_t row, int wall, const WallView& view, WallReaction& reaction,
-                    Works& works) {
-  ContactTable& c = s.contacts;
-  const auto i = static_cast<int>(c.index_i[row]);
-  const double radius = c.radius_i[row];
-  const Vec3 n = -view.away;  // from the ball to the wall
-  const Vec3 spin = s.balls.spin(i);
-  const Vec3 relative = s.last_wall_velocity[static_cast<std::size_t>(wall)] - s.balls.velocity(i);
+/// Contacts that wait to be evaluated, and what the law makes of them: one number of all of them side by side.
+struct alignas(64) TouchBatch {
+  static constexpr std::size_t n = k_contact_batch;
+  double normal[3][n], relative[3][n], spin[3][n], shear[3][n], damping[3][n], force[3][n];
+  double radius[n], overlap[n], hertz[n], shear_ratio[n], friction[n], normal_dashpot[n], shear_dashpot[n];
+  double normal_force[n], stiffness[n], slip[n], dashpot[n];
+  std::size_t row[n];
+  int wall[n];
+  std::size_t count;
+};
 
-  HertzMotion m;
-  m.overlap = radius - view.distance;
-  m.normal_speed = dot(relative, n);
-  m.old_overlap = m.overlap + m.normal_speed * s.last_dt;
-  const double lever = radius - 0.5 * m.overlap;
-  m.shear_velocity = perpendicular(relative - cross(spin, n * lever), n);
-  m.carried_shear = carried_at_wall(c.shear(row), n, 0.25 * s.last_dt * dot(spin, n));
-  const HertzParameters p{c.hertz[row], c.shear_ratio[row], c.friction[row],
-                          options.dashpots ? c.normal_dashpot[row] : 0.0,
-                          options.dashpots ? c.shear_dashpot[row] : 0.0};
-  const HertzForce f = hertz_mindlin<options>(p, m, s.last_dt);
-  const Vec3 force = f.shear_total - n * f.normal_total;
-  c.state[row] = {n, f.normal_total, f.shear, m.overlap};
-  if constexpr (options.dashpots) set_damping(c, row, f.shear_total - f.shear);
-  reaction.force -= force;
-  reaction.stiffness += 1.5 * p.hertz * std::sqrt(m.overlap);
-  ++reaction.contacts;
-  works.slip += f.slip_work;
-  works.dashpot += f.dashpot_work;
+DEM_INLINE Vec3 taken(const double (&from)[3][TouchBatch::n], std::size_t k) {
+  return {from[0][k], from[1][k], from[2][k]};
+}
+
+DEM_INLINE void put(double (&to)[3][TouchBatch::n], std::size_t k, const Vec3& v) {
+  to[0][k] = v.x;
+  to[1][k] = v.y;
+  to[2][k] = v.z;
+}
+
+/// The law for all places of a batch; what comes out for places beyond its count is not read.
+template <HertzOptions options>
+DEM_INLINE void evaluate_batch(TouchBatch& b, double dt) {
+#pragma omp simd
+  for (std::size_t k = 0; k < TouchBatch::n; ++k) {
+    const Vec3 n = taken(b.normal, k), relative = taken(b.relative, k), spin = taken(b.spin, k);
+    HertzMotion m;
+    m.overlap = b.overlap[k];
+    m.normal_speed = dot(relative, n);
+    m.old_overlap = m.overlap + m.normal_speed * dt;
+    const double lever = b.radius[k] - 0.5 * m.overlap;
+    m.shear_velocity = perpendicular(relative - cross(spin, n * lever), n);
+    m.carried_shear = carried_at_wall(taken(b.shear, k), n, 0.25 * dt * dot(spin, n));
+    const HertzParameters p{b.hertz[k], b.shear_ratio[k], b.friction[k], options.dashpots ? b.normal_dashpot[k] : 0.0,
+                            options.dashpots ? b.shear_dashpot[k] : 0.0};
+    const HertzForce f = hertz_mindlin<options>(p, m, dt);
+    put(b.shear, k, f.shear);
+    put(b.damping, k, f.shear_total - f.shear);
+    put(b.force, k, f.shear_total - n * f.normal_total);
+    b.normal_force[k] = f.normal_total;
+    b.stiffness[k] = 1.5 * p.hertz * std::sqrt(m.overlap);
+    b.slip[k] = f.slip_work;
+    b.dashpot[k] = f.dashpot_work;
+  }
+}
+
+/// Evaluates the contacts of a batch, stores them in their rows and adds them to the reactions; the batch is empty then.
+template <HertzOptions options>
+void flush(Simulation& s, TouchBatch& b, WallReaction* reactions, Works& works) {
+  if (b.count == 0) return;
+  ContactTable& c = s.contacts;
+  evaluate_batch<options>(b, s.last_dt);
+  for (std::size_t k = 0; k < b.count; ++k) {
+    c.state[b.row[k]] = {taken(b.normal, k), b.normal_force[k], taken(b.shear, k), b.overlap[k]};
+    if constexpr (options.dashpots) set_damping(c, b.row[k], taken(b.damping, k));
+    WallReaction& reaction = reactions[b.wall[k]];
+    reaction.force -= taken(b.force, k);
+    reaction.stiffness += b.stiffness[k];
+    ++reaction.contacts;
+    works.slip += b.slip[k];
+    works.dashpot += b.dashpot[k];
+  }
+  b.count = 0;
 }
 
 void clear_row(ContactTable& c, std::size_t row) {
@@ -133,43 +109,44 @@ void clear_row(ContactTable& c, std::size_t row) {
   if (!c.damping_x.empty()) set_damping(c, row, {});
 }
 
-/// A ball near one rectangle only, as most are.
+/// Adds a contact that counts to the batch; true when that is full.
 template <HertzOptions options>
-void evaluate_lone_touch(Simulation& s, std::size_t row, WallReaction* reactions, Works& works) {
-  ContactTable& c = s.contacts;
-  const auto wall = static_cast<int>(c.index_j[row]);
-  const WallView view = look_at(s.walls[static_cast<std::size_t>(wall)], s.balls.position(c.index_i[row]));
-  if (touches(view, c.radius_i[row])) {
-    evaluate_touch<options>(s, row, wall, view, reactions[wall], works);
-  } else {
-    clear_row(c, row);
+bool fetch_touch(const Simulation& s, std::size_t row, int wall, const WallView& view, TouchBatch& b) {
+  const ContactTable& c = s.contacts;
+  const auto i = static_cast<int>(c.index_i[row]);
+  const std::size_t k = b.count++;
+  b.row[k] = row;
+  b.wall[k] = wall;
+  put(b.normal, k, -view.away);  // from the ball to the wall
+  put(b.relative, k, s.last_wall_velocity[static_cast<std::size_t>(wall)] - s.balls.velocity(i));
+  put(b.spin, k, s.balls.spin(i));
+  put(b.shear, k, c.shear(row));
+  b.radius[k] = c.radius_i[row];
+  b.overlap[k] = c.radius_i[row] - view.distance;
+  b.hertz[k] = c.hertz[row];
+  b.shear_ratio[k] = c.shear_ratio[row];
+  b.friction[k] = c.friction[row];
+  if constexpr (options.dashpots) {
+    b.normal_dashpot[k] = c.normal_dashpot[row];
+    b.shear_dashpot[k] = c.shear_dashpot[row];
   }
+  return b.count == TouchBatch::n;
 }
 
-template <HertzOptions options>
-void evaluate_ball(Simulation& s, int first, int last, WallReaction* reactions, Works& works) {
+/// What the ball of rows [first, last), near several rectangles, touches.
+int find_touches(Simulation& s, std::size_t first, std::size_t last, Touches& out) {
   ContactTable& c = s.contacts;
-  const std::size_t base = c.n_pair_rows();
-  Touches touches;
-  const int n = last - first;
-  const auto ball = static_cast<int>(c.index_i[base + static_cast<std::size_t>(first)]);
-  const Vec3 centre = s.balls.position(ball);
-  for (int k = 0; k < n; ++k) {
-    Touch& t = touches[static_cast<std::size_t>(k)];
-    t.row = base + static_cast<std::size_t>(first + k);
-    t.wall = static_cast<int>(c.index_j[t.row]);
+  const Vec3 centre = s.balls.position(c.index_i[first]);
+  int n = 0;
+  for (std::size_t row = first; row < last; ++row, ++n) {
+    Touch& t = out[static_cast<std::size_t>(n)];
+    t.row = row;
+    t.wall = static_cast<int>(c.index_j[row]);
     t.view = look_at(s.walls[static_cast<std::size_t>(t.wall)], centre);
   }
-  resolve(s.walls, c.radius_i[touches[0].row], touches, n);
-  if (n > 1) hand_over(c, touches, n);
-  for (int k = 0; k < n; ++k) {
-    const Touch& t = touches[static_cast<std::size_t>(k)];
-    if (t.counts) {
-      evaluate_touch<options>(s, t.row, t.wall, t.view, reactions[t.wall], works);
-    } else {
-      clear_row(c, t.row);
-    }
-  }
+  resolve_touches(s.walls, c.radius_i[first], out, n);
+  hand_over_shear(c, out, n);
+  return n;
 }
 
 /// The balls of one block of ids, in order.
@@ -178,18 +155,34 @@ void evaluate_block(Simulation& s, std::size_t block) {
   const auto groups = static_cast<std::size_t>(s.wall_block[block + 1]);
   const std::size_t base = s.contacts.n_pair_rows();
   WallReaction* reactions = s.scratch_reactions.data() + block * s.walls.size();
+  const auto row_of = [&](std::size_t g) { return base + static_cast<std::size_t>(s.wall_group[g]); };
   Works works;
-  for (auto g = static_cast<std::size_t>(s.wall_block[block]); g < groups; ++g) {
-    if (g + k_groups_ahead < groups) {
-      prefetch_ball(s, base + static_cast<std::size_t>(s.wall_group[g + k_groups_ahead]));
+  TouchBatch batch{};
+  Touches found;
+  const auto take = [&](std::size_t row, int wall, const WallView& view, bool counts) {
+    if (!counts) {
+      clear_row(s.contacts, row);
+    } else if (fetch_touch<options>(s, row, wall, view, batch)) {
+      flush<options>(s, batch, reactions, works);
     }
-    const int first = s.wall_group[g], last = s.wall_group[g + 1];
-    if (last - first == 1) {
-      evaluate_lone_touch<options>(s, base + static_cast<std::size_t>(first), reactions, works);
-    } else {
-      evaluate_ball<options>(s, first, last, reactions, works);
+  };
+  for (auto g = static_cast<std::size_t>(s.wall_block[block]); g < groups; ++g) {
+    if (g + k_groups_ahead < groups) prefetch_ball(s, row_of(g + k_groups_ahead));
+    const std::size_t first = row_of(g), last = row_of(g + 1);
+    if (last - first == 1) {  // as most are
+      const int wall = s.contacts.index_j[first];
+      const WallView view =
+          look_at(s.walls[static_cast<std::size_t>(wall)], s.balls.position(s.contacts.index_i[first]));
+      take(first, wall, view, touches(view, s.contacts.radius_i[first]));
+      continue;
+    }
+    const int n = find_touches(s, first, last, found);
+    for (int k = 0; k < n; ++k) {
+      const Touch& t = found[static_cast<std::size_t>(k)];
+      take(t.row, t.wall, t.view, t.counts);
     }
   }
+  flush<options>(s, batch, reactions, works);
   s.scratch_slip[block] = works.slip;
   s.scratch_dashpot[block] = works.dashpot;
 }
