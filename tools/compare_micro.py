@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws several direct shear runs side by side: `tools/compare_micro.py runs/a runs/b [-o picture.png]`.
+"""Draws several direct shear runs side by side: `tools/compare_micro.py runs/a runs/b [-o picture.png] [--table]`.
 
 All curves against shear displacement: stress, volume, anisotropies with their directions, friction, contacts, the strong
-network by kind and the strain of the rubber. Reads shear.csv, micro.csv and summary.json. Needs python3-matplotlib.
+network by kind and the strain of the rubber. --table also prints, in Markdown, their values before shear, at the peak of the
+shear stress and at the end. Reads shear.csv, micro.csv and summary.json. Needs python3-matplotlib.
 """
 import argparse
 import csv
@@ -38,11 +39,25 @@ PANELS = (
 )
 
 
+# Name and column of micro.csv of each row of the table.
+ROWS = (("fabric a", "a_all"), ("its noise", "a_noise_all"), ("theta_a", "theta_a_all_deg"), ("a_n", "a_n_all"),
+        ("theta_n", "theta_n_all_deg"), ("a_t", "a_t_all"), ("theta_t", "theta_t_all_deg"),
+        ("bulk friction", "bulk_friction_all"), ("sliding contacts", "sliding_all"), ("coordination", "coordination"),
+        ("rattlers", "rattlers"), ("strong contacts", "strong_fraction"), ("load of strong contacts", "strong_load"),
+        ("strong g-g", "strong_share_gg"), ("strong g-r", "strong_share_gr"), ("strong r-r", "strong_share_rr"),
+        ("load on strong g-g", "strong_load_share_gg"), ("load on strong g-r", "strong_load_share_gr"),
+        ("load on strong r-r", "strong_load_share_rr"), ("strong network spans", "strong_spans"),
+        ("bond strain", "bond_strain"), ("volume strain of grains", "volume_strain"),
+        ("closed second neighbours", "closed_second_neighbours"))
+
+
 class Run:
     def __init__(self, folder):
         self.shear = read_csv(folder / "shear.csv")
         self.micro = read_csv(folder / "micro.csv")
         summary = json.loads((folder / "summary.json").read_text())
+        self.displacement_at_peak = summary["displacement_at_peak_mm"]
+        self.name = f"VRC {100 * summary['rubber_content']:.0f} %"
         self.label = (f"VRC {100 * summary['rubber_content']:.0f} %, {summary['normal_stress_target_kPa']:g} kPa, "
                       f"e {summary['void_ratio_before_shear']:.3f}")
 
@@ -94,10 +109,24 @@ def draw_strong(axes, runs):
     axes[3].set_title("Closed second neighbours in a rubber grain", fontsize=9)
 
 
+def table(runs):
+    """Markdown: a row a quantity; of each run the values before shear, nearest to the peak and at the end."""
+    lines = ["| | " + " | ".join(f"{r.name}: start, peak, end" for r in runs) + " |", "| --- |" + " --- |" * len(runs)]
+    for name, column in ROWS:
+        cells = []
+        for run in runs:
+            peak = np.argmin(np.abs(run.micro["displacement_mm"] - run.displacement_at_peak))
+            values = [run.micro[column][k] for k in (0, peak, -1)]
+            cells.append("-" if np.isnan(values).all() else ", ".join(f"{v:.3g}" for v in values))
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folders", type=pathlib.Path, nargs="+", help="output folders of finished direct shear runs")
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("comparison.png"))
+    parser.add_argument("--table", action="store_true", help="print a Markdown table, too")
     options = parser.parse_args()
     for folder in options.folders:
         missing = [n for n in ("shear.csv", "micro.csv", "summary.json") if not (folder / n).exists()]
@@ -119,6 +148,8 @@ def main():
         axis.set_xlabel("shear displacement, mm", fontsize=8)
     figure.savefig(options.output, dpi=100)
     print(options.output)
+    if options.table:
+        print(table(runs))
     return 0
 
 

@@ -85,7 +85,7 @@ def draw_states(figure, frames):
             letter = "ant"[row]
             text = f"{letter if row == 0 else 'a_' + letter} {curve[1]:.4f}, theta_{letter} {np.degrees(curve[2]):.3f} deg"
             words.append(text)
-            axes = figure.add_subplot(4, len(frames), row * len(frames) + column + 1, projection="polar")
+            axes = figure.add_subplot(3, len(frames), row * len(frames) + column + 1, projection="polar")
             head = f"{words[0]}\n" if row == 0 else ""
             draw_polar(axes, values, curve, k, f"{head}{name}\n{text}")
         print("; ".join(words))
@@ -93,7 +93,7 @@ def draw_states(figure, frames):
 
 def draw_records(figure, rows):
     u = rows["displacement_mm"]
-    panels = [figure.add_subplot(4, 3, 10 + k) for k in range(3)]
+    panels = [figure.add_subplot(1, 3, 1 + k) for k in range(3)]
     for name, label, colour in (("a_all", "a", "#c2410c"), ("a_n_all", "a_n", LINE), ("a_t_all", "a_t", "#0e7490")):
         panels[0].plot(u, rows[name], color=colour, label=label)
     panels[0].plot(u, rows["a_noise_all"], color="grey", lw=0.7, ls=":", label="noise of a")
@@ -123,12 +123,13 @@ def main():
             print(f"{options.folder}: has no {name}; it is no output folder of a direct shear run", file=sys.stderr)
             return 66
     figure = plt.figure(figsize=(12, 14), layout="constrained")
+    upper, lower = figure.subfigures(2, 1, height_ratios=(3, 1))
     with h5py.File(options.folder / "results.h5") as results:
         if not results["frames"]:
             print(f"{options.folder}: results.h5 holds no state yet", file=sys.stderr)
             return 66
-        draw_states(figure, chosen_frames(results, options.at))
-    draw_records(figure, read_csv(options.folder / "micro.csv"))
+        draw_states(upper, chosen_frames(results, options.at))
+    draw_records(lower, read_csv(options.folder / "micro.csv"))
     target = options.output or options.folder / "micro.png"
     figure.savefig(target, dpi=110)
     print(target)

@@ -209,7 +209,7 @@ def draw(rows):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(15, 6.4), gridspec_kw={"width_ratios": (1, 1.15, 1.15)})
+    figure, axes = plt.subplots(1, 3, figsize=(15, 7.2), gridspec_kw={"width_ratios": (1, 1.15, 1.15)})
     colours = {0: "#31475e", 100: "#c2410c"}
     names = {0: "gravel", 100: "rubber"}
     for vrc, published in PUBLISHED.items():
@@ -219,7 +219,8 @@ def draw(rows):
             axes[0].plot([r["stress_kPa"] for r in full], [r[key] for r in full], style, marker=".", color=colours[vrc],
                          label=f"{names[vrc]}, {what}")
     axes[0].set(xlabel="normal stress, kPa", ylabel="void ratio", title="Full size, shipped defaults")
-    axes[0].legend(fontsize=8)
+    below = {"fontsize": 8, "frameon": False, "loc": "upper center", "bbox_to_anchor": (0.5, -0.09), "ncols": 2}
+    axes[0].legend(**below)
     for axis, vrc in zip(axes[1:], PUBLISHED):
         found = {r["label"]: r for r in rows if r["part"] == "choices" and r["vrc_percent"] == vrc}
         labels = [label for _, label, _ in CHOICES[vrc] if label in found]
@@ -233,9 +234,9 @@ def draw(rows):
             axis.plot(r["e_prepared"], place, "o", color=colours[vrc])
         axis.set_yticks(list(places), labels, fontsize=8)
         axis.invert_yaxis()
-        axis.set(xlabel="void ratio at 60 kPa (line: e_min to e_max at 54 kPa)",
-                 title=f"An eighth of the volume, {names[vrc]}")
-        axis.legend(fontsize=8, loc="lower right")
+        axis.set_xlabel("void ratio at 60 kPa; line: e_min to e_max at 54 kPa", fontsize=9)
+        axis.set_title(f"An eighth of the volume, {names[vrc]}")
+        axis.legend(**below)
     figure.tight_layout()
     figure.savefig(PICTURE, dpi=110)
 
