@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The command line: chooses the verb, turns every error into one message and an exit code.
+#include <omp.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +12,7 @@
 #include <new>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -74,6 +77,19 @@ int run_program(int argc, char** argv) {
   return number(ExitCode::done);
 }
 
+/// A user who binds threads to processors has the first one bound before main; started from there, the program would see
+/// that one processor only. So it gives back all that the runtime knew.
+void unbind_first_thread() {
+  cpu_set_t all;
+  CPU_ZERO(&all);
+  for (int place = 0; place < omp_get_num_places(); ++place) {
+    std::vector<int> processors(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+    omp_get_place_proc_ids(place, processors.data());
+    for (const int k : processors) CPU_SET(k, &all);
+  }
+  if (CPU_COUNT(&all) > 0) sched_setaffinity(0, sizeof all, &all);
+}
+
 /// Waiting threads of the OpenMP runtime spin for milliseconds by default; on a machine with other work to do, a thread
 /// that spins holds the core that the awaited one needs, and a run becomes many times slower. The runtime reads the
 /// limit before main, so the program starts itself once more with one (docs/decisions/0008-waiting-threads.md). A user
@@ -84,7 +100,9 @@ void limit_spinning(char** argv) {
   std::error_code failed;
   // The link itself would start the program too, but under the name "exe" in the list of processes.
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-  if (!failed) execv(program.c_str(), argv);  // returns only when it failed, and then the run goes on as it is
+  if (failed) return;
+  unbind_first_thread();
+  execv(program.c_str(), argv);  // returns only when it failed, and then the run goes on as it is
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dem4grm/core/blocks.hpp"
+#include "dem4grm/core/lane_vectors.hpp"
 #include "dem4grm/core/registers.hpp"
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/laws/local_damping.hpp"
@@ -73,29 +74,18 @@ double carry_pebbles(Simulation& s, const Clump& body, double inverse_dt) {
 constexpr std::size_t k_clump_lanes = 8;
 static_assert(k_clump_block % k_clump_lanes == 0);
 
-using ClumpLane = double[k_clump_lanes];
 struct alignas(64) ClumpLanes {
-  ClumpLane position[3], velocity[3], momentum[3], spin[3], orientation[4];
-  ClumpLane force[3], torque[3], mass, inertia[3], lost;
+  LaneVectors<k_clump_lanes> position, velocity, momentum, spin, force, torque, inertia;
+  double orientation[4][k_clump_lanes], mass[k_clump_lanes], lost[k_clump_lanes];
 };
-
-DEM_INLINE void put(ClumpLane (&to)[3], std::size_t lane, const Vec3& v) {
-  to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
-}
-DEM_INLINE void put(ClumpLane (&to)[3], std::size_t lane, const Four& v) {
-  to[0][lane] = v[0], to[1][lane] = v[1], to[2][lane] = v[2];
-}
-DEM_INLINE Vec3 take(const ClumpLane (&from)[3], std::size_t lane) {
-  return {from[0][lane], from[1][lane], from[2][lane]};
-}
 
 void load(const Clump& body, const Load& load, ClumpLanes& c, std::size_t lane) {
   put(c.position, lane, body.position);
   put(c.velocity, lane, body.velocity);
   put(c.momentum, lane, body.angular_momentum);
   put(c.spin, lane, body.spin);
-  put(c.force, lane, load.force);
-  put(c.torque, lane, load.torque);
+  put(c.force, lane, {load.force[0], load.force[1], load.force[2]});
+  put(c.torque, lane, {load.torque[0], load.torque[1], load.torque[2]});
   put(c.inertia, lane, body.inertia);
   c.orientation[0][lane] = body.orientation.w, c.orientation[1][lane] = body.orientation.x;
   c.orientation[2][lane] = body.orientation.y, c.orientation[3][lane] = body.orientation.z;
@@ -103,26 +93,26 @@ void load(const Clump& body, const Load& load, ClumpLanes& c, std::size_t lane) 
 }
 
 void store(const ClumpLanes& c, std::size_t lane, Clump& body) {
-  body.position = take(c.position, lane);
-  body.velocity = take(c.velocity, lane);
-  body.angular_momentum = take(c.momentum, lane);
-  body.spin = take(c.spin, lane);
+  body.position = taken(c.position, lane);
+  body.velocity = taken(c.velocity, lane);
+  body.angular_momentum = taken(c.momentum, lane);
+  body.spin = taken(c.spin, lane);
   body.orientation = {c.orientation[0][lane], c.orientation[1][lane], c.orientation[2][lane], c.orientation[3][lane]};
 }
 
 /// Damping, leapfrog and rotation of one lane.
 DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double kick, double alpha) {
-  const Vec3 velocity_before = take(c.velocity, lane), spin_before = take(c.spin, lane);
-  const Vec3 all_force = take(c.force, lane), all_torque = take(c.torque, lane);
+  const Vec3 velocity_before = taken(c.velocity, lane), spin_before = taken(c.spin, lane);
+  const Vec3 all_force = taken(c.force, lane), all_torque = taken(c.torque, lane);
   const Vec3 force = locally_damped(all_force, velocity_before, alpha);
   const Vec3 torque = locally_damped(all_torque, spin_before, alpha);
   const Vec3 velocity = velocity_before + force * (kick / c.mass[lane]);
-  const Vec3 momentum = take(c.momentum, lane) + torque * kick;
-  const Vec3 inertia = take(c.inertia, lane);
+  const Vec3 momentum = taken(c.momentum, lane) + torque * kick;
+  const Vec3 inertia = taken(c.inertia, lane);
   const Quaternion before{c.orientation[0][lane], c.orientation[1][lane], c.orientation[2][lane],
                           c.orientation[3][lane]};
   const FreeRotation turn = rotate_freely(before, momentum, {1.0 / inertia.x, 1.0 / inertia.y, 1.0 / inertia.z}, dt);
-  put(c.position, lane, take(c.position, lane) + velocity * dt);
+  put(c.position, lane, taken(c.position, lane) + velocity * dt);
   put(c.velocity, lane, velocity);
   put(c.momentum, lane, momentum);
   put(c.spin, lane, turn.spin);

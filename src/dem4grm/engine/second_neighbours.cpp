@@ -3,6 +3,7 @@
 // a time: their distances are tested for all lanes, then those that touch are brought together into full registers.
 #include <cstdint>
 
+#include "dem4grm/core/lane_vectors.hpp"
 #include "dem4grm/engine/grain_block.hpp"
 #include "dem4grm/engine/hertz_dispatch.hpp"
 
@@ -58,21 +59,10 @@ void find_closed_pairs(const GrainBlock& g, double reach2, unsigned char* touche
 
 /// What the law needs of up to k_contact_batch pairs, and what it gives: one component of all of them side by side.
 struct alignas(64) PairBatch {
-  double branch[3][k_contact_batch], velocity[3][k_contact_batch], spin_i[3][k_contact_batch],
-      spin_j[3][k_contact_batch], shear[3][k_contact_batch];
-  double force[3][k_contact_batch], torque_i[3][k_contact_batch], torque_j[3][k_contact_batch],
-      slip_work[k_contact_batch], dashpot_work[k_contact_batch];
+  using Vectors = LaneVectors<k_contact_batch>;
+  Vectors branch, velocity, spin_i, spin_j, shear, force, torque_i, torque_j;
+  double slip_work[k_contact_batch], dashpot_work[k_contact_batch];
 };
-
-DEM_INLINE Vec3 taken(const double (&from)[3][k_contact_batch], std::size_t k) {
-  return {from[0][k], from[1][k], from[2][k]};
-}
-
-DEM_INLINE void put(double (&to)[3][k_contact_batch], std::size_t k, const Vec3& v) {
-  to[0][k] = v.x;
-  to[1][k] = v.y;
-  to[2][k] = v.z;
-}
 
 /// Fetches pair k of a batch; h is its history of shear.
 DEM_INLINE void fetch_pair(const GrainBlock& g, std::size_t a, std::size_t b, const double* h, std::size_t k,

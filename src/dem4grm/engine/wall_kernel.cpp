@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stage: ball-wall contacts. Ball by ball it is decided which rectangles push (wall_touches.hpp); those contacts are brought
-// together and evaluated k_contact_batch at a time, and the walls add up what they feel in the order of the rows.
+// Stage: ball-wall contacts. Ball by ball it is decided which rectangles push (wall_touches.hpp); those contacts are
+// brought together and evaluated k_contact_batch at a time, and the walls add up what they feel in the order of the
+// rows.
 #include <algorithm>
 
 #include "dem4grm/core/blocks.hpp"
+#include "dem4grm/core/lane_vectors.hpp"
 #include "dem4grm/engine/hertz_dispatch.hpp"
 #include "dem4grm/engine/wall_touches.hpp"
 
@@ -41,23 +43,13 @@ void set_damping(ContactTable& c, std::size_t row, const Vec3& f) {
 /// Contacts that wait to be evaluated, and what the law makes of them: one number of all of them side by side.
 struct alignas(64) TouchBatch {
   static constexpr std::size_t n = k_contact_batch;
-  double normal[3][n], relative[3][n], spin[3][n], shear[3][n], damping[3][n], force[3][n];
+  LaneVectors<n> normal, relative, spin, shear, damping, force;
   double radius[n], overlap[n], hertz[n], shear_ratio[n], friction[n], normal_dashpot[n], shear_dashpot[n];
   double normal_force[n], stiffness[n], slip[n], dashpot[n];
   std::size_t row[n];
   int wall[n];
   std::size_t count;
 };
-
-DEM_INLINE Vec3 taken(const double (&from)[3][TouchBatch::n], std::size_t k) {
-  return {from[0][k], from[1][k], from[2][k]};
-}
-
-DEM_INLINE void put(double (&to)[3][TouchBatch::n], std::size_t k, const Vec3& v) {
-  to[0][k] = v.x;
-  to[1][k] = v.y;
-  to[2][k] = v.z;
-}
 
 /// The law for all places of a batch; what comes out for places beyond its count is not read.
 template <HertzOptions options>
