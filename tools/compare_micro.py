@@ -7,7 +7,6 @@ network by kind and the strain of the rubber. --table also prints, in Markdown, 
 shear stress and at the end. Reads shear.csv, micro.csv and summary.json. Needs python3-matplotlib.
 """
 import argparse
-import csv
 import json
 import pathlib
 import sys
@@ -17,6 +16,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+from run_files import read_csv
 
 COLOURS = ("#31475e", "#c2410c", "#0e7490", "#7c3aed", "#b9a27f", "#4d7c0f")
 KINDS = {"gg": "gravel-gravel", "gr": "gravel-rubber", "rr": "rubber-rubber"}
@@ -60,13 +61,6 @@ class Run:
         self.name = f"VRC {100 * summary['rubber_content']:.0f} %"
         self.label = (f"VRC {100 * summary['rubber_content']:.0f} %, {summary['normal_stress_target_kPa']:g} kPa, "
                       f"e {summary['void_ratio_before_shear']:.3f}")
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    whole = [r for r in rows[1:] if len(r) == len(rows[0])]  # the last row of a running test may be half written
-    return {name: np.array([float(r[k]) for r in whole]) for k, name in enumerate(rows[0])}
 
 
 def draw_curves(axes, runs):

@@ -8,7 +8,6 @@ histograms are made here from the stored contacts, by the formulas of docs/theor
 the lines that are printed must agree with `dem4grm micro`. Needs python3-h5py and python3-matplotlib.
 """
 import argparse
-import csv
 import pathlib
 import sys
 
@@ -19,18 +18,13 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+from run_files import read_csv
+
 FILL, LINE = "#b9a27f", "#31475e"
 PAIRS = {"gg": ("gravel-gravel", "#c2410c"), "gr": ("gravel-rubber", "#7c3aed"), "rr": ("rubber-rubber", "#0e7490")}
 HALF = 18  # bins of 10 degrees on the half circle
 WIDTH = np.pi / HALF
 CENTRES = (np.arange(HALF) + 0.5) * WIDTH
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    whole = [r for r in rows[1:] if len(r) == len(rows[0])]  # the last row of a running test may be half written
-    return {name: np.array([float(r[k]) for r in whole]) for k, name in enumerate(rows[0])}
 
 
 def fit(values, has_value, k):

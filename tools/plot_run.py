@@ -7,7 +7,6 @@ shear direction, and the contact forces in the same slice. A grain compression b
 from the side. Needs python3-h5py and python3-matplotlib; reads shear.csv or grain.csv and results.h5 only.
 """
 import argparse
-import csv
 import json
 import pathlib
 
@@ -19,14 +18,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
 
+from run_files import read_csv
+
 GRAVEL, RUBBER = "#b9a27f", "#31475e"
 PAIR_COLOURS = {"gravel-gravel": "#c2410c", "gravel-rubber": "#7c3aed", "rubber-rubber": "#0e7490"}
-
-
-def read_csv(path):
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return {name: np.array([float(r[k]) for r in rows[1:]]) for k, name in enumerate(rows[0])}
 
 
 def nearest_frame(results, displacement_mm):

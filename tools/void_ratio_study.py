@@ -45,16 +45,21 @@ def fill(void_ratio):
     return {"specimen.generation_void_ratio": str(void_ratio)}
 
 
-PLATES = {"specimen.preparation_plate_friction": "0.7"}
-AT_FULL_STRESS = {"specimen.branch_stress_ratio": "1.0"}
-WIDER = {"box.length": "70 mm", "box.width": "70 mm", "box.height": "37 mm"}
+SEEDS = [
+    ("seed", "shipped defaults, seed 1", {}),
+    ("seed", "seed 2", {"seed": "2"}),
+    ("seed", "seed 3", {"seed": "3"}),
+]
+FOR_BOTH = [
+    ("path", "branches at the full stress", {"specimen.branch_stress_ratio": "1.0"}),
+    ("walls", "plate friction 0.7 in preparation", {"specimen.preparation_plate_friction": "0.7"}),
+    ("walls", "box of 70 x 70 x 37 mm", {"box.length": "70 mm", "box.width": "70 mm", "box.height": "37 mm"}),
+]
 
 # What is varied, one at a time, at 60 kPa in an eighth of the volume: group, label, settings.
 CHOICES = {
     0: [
-        ("seed", "shipped defaults, seed 1", {}),
-        ("seed", "seed 2", {"seed": "2"}),
-        ("seed", "seed 3", {"seed": "3"}),
+        *SEEDS,
         ("shapes", "spheres, generated at e 0.75", {"specimen.clump_shapes": '["sphere"]', **fill(0.75)}),
         ("shapes", "T1 only (two equal balls)", {"specimen.clump_shapes": '["T1"]'}),
         ("shapes", "T4 only (three in a row)", {"specimen.clump_shapes": '["T4"]'}),
@@ -64,14 +69,10 @@ CHOICES = {
         ("path", "generated at e 0.58", fill(0.58)),
         ("path", "generated at e 0.70", fill(0.70)),
         ("path", "friction 0.3 in the fill", {"specimen.generation_friction": "0.3"}),
-        ("path", "branches at the full stress", AT_FULL_STRESS),
-        ("walls", "plate friction 0.7 in preparation", PLATES),
-        ("walls", "box of 70 x 70 x 37 mm", WIDER),
+        *FOR_BOTH,
     ],
     100: [
-        ("seed", "shipped defaults, seed 1", {}),
-        ("seed", "seed 2", {"seed": "2"}),
-        ("seed", "seed 3", {"seed": "3"}),
+        *SEEDS,
         ("size", "solid volume 203.6 r3 (72 % balls)", solid_volume(203.6)),
         ("size", "solid volume 215.5 r3 (Wigner-Seitz)", solid_volume(215.5)),
         ("size", "size 3.72 mm (r 0.631 mm)", one_size(3.72)),
@@ -86,9 +87,7 @@ CHOICES = {
         ("path", "generated at e 0.80", fill(0.80)),
         ("path", "generated at e 1.20", fill(1.20)),
         ("path", "friction 0.27 in the fill", {"specimen.generation_friction": "0.27"}),
-        ("path", "branches at the full stress", AT_FULL_STRESS),
-        ("walls", "plate friction 0.7 in preparation", PLATES),
-        ("walls", "box of 70 x 70 x 37 mm", WIDER),
+        *FOR_BOTH,
     ],
 }
 

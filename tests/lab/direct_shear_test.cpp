@@ -11,24 +11,17 @@
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/specimen/fill.hpp"
+#include "support/tiny_shear_case.hpp"
 
 namespace dem {
 namespace {
 
 DirectShearCase small_case(double rubber_content) {
-  DirectShearCase test;
-  test.specimen.rubber_content = rubber_content;
-  test.specimen.preparation_friction = 0.3;
+  DirectShearCase test = test::tiny_shear_case(rubber_content, 0.030, 0.028);
+  test.specimen.generation_void_ratio.reset();
   test.specimen.gravel_grading = {{4.0e-3, 0.0}, {5.0e-3, 0.5}, {6.0e-3, 1.0}};
-  test.specimen.rubber_grading = {{3.65e-3, 0.0}, {3.75e-3, 1.0}};
-  test.box.length = test.box.width = 0.030;
-  test.box.height = 0.028;
   test.box.upper_height = 0.040;
-  test.box.wing = 0.010;
-  test.shear.normal_stress = 60e3;
-  test.shear.velocity = 0.05;
   test.shear.displacement = 1.5e-3;
-  test.servo.shear_speed_cap = 0.25;
   test.equilibrium.force_ratio = 1e-3;
   test.equilibrium.hold_steps = 500;
   test.recording.interval = 2e-5;
