@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast is each hot loop by itself? Bonds, contacts, ordered sums, the same sums without order and the search of
-// neighbours, on the specimen of an output folder or on a dense assembly of a case.
+// How fast is each hot loop by itself? Bonds, contacts, ordered sums, the same sums without order and the list of
+// candidates, on the specimen of an output folder or on a dense assembly of a case.
 //
 //   bench_kernels FOLDER|CASE [threads] [repeats]
 //
@@ -92,8 +92,12 @@ void measure_all(const std::string& source, int repeats) {
   measure(common, "ordered sums", references, repeats, [&] { run_sums(s, kept); });
   std::vector<std::array<double, 8>> loads(static_cast<std::size_t>(s.balls.n_balls()));
   measure(common, "atomic sums", 2 * s.contacts.n_pairs(), repeats, [&] { run_atomic_sums(s, loads); });
-  measure(common, "search", static_cast<std::size_t>(s.balls.n_balls()), std::max(repeats / 20, 3),
-          [&] { s.rebuild_candidates(); });
+  const auto balls = static_cast<std::size_t>(s.balls.n_balls());
+  measure(common, "list", balls, std::max(repeats / 20, 3), [&] { s.rebuild_candidates(); });
+  measure(common, "list with search", balls, std::max(repeats / 20, 3), [&] {
+    s.near.is_valid = false;
+    s.rebuild_candidates();
+  });
 }
 
 }  // namespace

@@ -37,6 +37,28 @@ TEST(Rebuild, MomentDoesNotMatter) {
   }
 }
 
+TEST(Rebuild, PickedListsAreThoseOfASearch) {
+  // Works are summed over blocks of the list: their bits agree only when every list had the same rows.
+  MixtureOptions o;
+  o.contact = {1, 0.1, 0.1, 0};
+  o.tunes = false;
+  o.margin_factor = 0.1;  // grains are fast here: the margins of 50 steps would leave no room for wider ones
+  o.reserve = 1.0;        // a search for every list
+  const Simulation reference = run_mixture(o, k_steps);
+  ASSERT_EQ(reference.near.searches, reference.rebuilds);
+  for (const double reserve : {3.0, 30.0}) {
+    o.reserve = reserve;
+    const Simulation other = run_mixture(o, k_steps);
+    EXPECT_LT(3 * other.near.searches, 2 * other.rebuilds) << reserve;
+    EXPECT_EQ(other.rebuilds, reference.rebuilds) << reserve;
+    EXPECT_EQ(other.contacts.pairs, reference.contacts.pairs) << reserve;
+    EXPECT_EQ(other.contacts.wall_pairs, reference.contacts.wall_pairs) << reserve;
+    EXPECT_EQ(other.state_hash(), reference.state_hash()) << reserve;
+    EXPECT_EQ(other.energy().slip, reference.energy().slip) << reserve;
+    EXPECT_EQ(other.energy().dashpot, reference.energy().dashpot) << reserve;
+  }
+}
+
 TEST(Rebuild, NoContactIsEverMissed) {
   // After every step, every pair that overlaps has been a candidate: brute force over all balls.
   MixtureOptions o;

@@ -5,6 +5,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -87,20 +88,53 @@ RC_GTEST_PROP(ContactTableProperty, ReferencesHoldEveryRowTwiceAndWallsOnce, ())
   }
 }
 
-RC_GTEST_PROP(FindPairsProperty, AgreesWithBruteForce, ()) {
-  RandomSequence random(*rc::gen::arbitrary<std::uint64_t>(), RandomStream::test, 0);
-  const int n = *rc::gen::inRange(0, 250);
-  const double side = *rc::gen::element(0.0, 1e-3, 0.01, 1.0), ratio = *rc::gen::element(1.0, 3.0, 10.0, 60.0),
-               skin = *rc::gen::element(0.0, 1e-5, 1e-3);
+/// Up to 250 balls of several bodies, at random in a cube.
+struct DrawnBalls {
   std::vector<double> x, y, z, radius;
   std::vector<int> body;
+};
+
+DrawnBalls drawn_balls(RandomSequence& random) {
+  const int n = *rc::gen::inRange(0, 250);
+  const double side = *rc::gen::element(0.0, 1e-3, 0.01, 1.0), ratio = *rc::gen::element(1.0, 3.0, 10.0, 60.0);
+  DrawnBalls b;
   for (int i = 0; i < n; ++i) {
-    x.push_back(random.uniform(-side, side));
-    y.push_back(random.uniform(-side, side));
-    z.push_back(random.uniform(-side, side));
-    radius.push_back(1e-3 / random.uniform(1.0, ratio));
-    body.push_back(static_cast<int>(random.uniform(0, n)));
+    b.x.push_back(random.uniform(-side, side));
+    b.y.push_back(random.uniform(-side, side));
+    b.z.push_back(random.uniform(-side, side));
+    b.radius.push_back(1e-3 / random.uniform(1.0, ratio));
+    b.body.push_back(static_cast<int>(random.uniform(0, n)));
   }
+  return b;
+}
+
+RC_GTEST_PROP(FindPairsProperty, PickingFromWideMarginsAfterMotionIsASearch, ()) {
+  RandomSequence random(*rc::gen::arbitrary<std::uint64_t>(), RandomStream::test, 0);
+  DrawnBalls b = drawn_balls(random);
+  const double wide = *rc::gen::element(1e-5, 3e-4, 2e-3), narrow = wide * random.uniform(0.0, 1.0);
+  const std::vector<Wall> walls{make_wall("floor", {-1e-3, -1e-3, 0}, {2e-3, 0, 0}, {0, 2e-3, 0})};
+  const auto widened = [&](double margin) {
+    std::vector<double> reach = b.radius;
+    for (double& r : reach) r += margin;
+    return reach;
+  };
+  std::vector<double> reach = widened(wide);
+  const std::vector<PairKey> near = find_pairs({b.x, b.y, b.z, reach, b.body}, 0.0);
+  const std::vector<PairKey> near_walls = find_wall_pairs({b.x, b.y, b.z, reach, b.body}, walls, 0.0);
+  const double step = 0.999 * (wide - narrow) / std::sqrt(3.0);  // a ball may move by wide - narrow
+  for (auto* axis : {&b.x, &b.y, &b.z}) {
+    for (double& value : *axis) value += random.uniform(-step, step);
+  }
+  reach = widened(narrow);
+  const SearchBalls now{b.x, b.y, b.z, reach, b.body};
+  RC_ASSERT(pick_pairs(now, near) == find_pairs(now, 0.0));
+  RC_ASSERT(pick_wall_pairs(now, walls, 0.0, near_walls) == find_wall_pairs(now, walls, 0.0));
+}
+
+RC_GTEST_PROP(FindPairsProperty, AgreesWithBruteForce, ()) {
+  RandomSequence random(*rc::gen::arbitrary<std::uint64_t>(), RandomStream::test, 0);
+  const double skin = *rc::gen::element(0.0, 1e-5, 1e-3);
+  const auto [x, y, z, radius, body] = drawn_balls(random);
   std::vector<PairKey> expected;
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (std::size_t j = i + 1; j < x.size(); ++j) {

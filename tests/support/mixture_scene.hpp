@@ -18,6 +18,8 @@ struct MixtureOptions {
   double spring_friction = 0.0;
   double margin_factor = 1.0;
   int rebuild_every = 0;  ///< 0: when the engine wants it
+  double reserve = NearPairs{}.reserve;
+  bool tunes = true;  ///< the horizon of the lists
   std::uint64_t seed = 1;
   Vec3 shift;  ///< m, of everything
 };
@@ -73,6 +75,8 @@ inline Simulation run_mixture(const MixtureOptions& o, int steps) {
   const BoxSettings box = mixture_box(o);
   s.margins.least *= o.margin_factor;
   s.margins.horizon *= o.margin_factor;
+  s.near.reserve = o.reserve;
+  s.margins.tunes = o.tunes;
   s.set_time_step(1e-6);
   s.servo = {ShearBox::k_top_plate, 100e3 * box.length * box.width, 0.5, 1.0};
   for (int k = 0; k < steps; ++k) {

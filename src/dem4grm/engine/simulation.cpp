@@ -197,6 +197,19 @@ std::size_t Simulation::speed_block_of(int id) const {
   return owner < rubber_blocks ? owner : rubber_blocks + (owner - rubber_blocks) / k_clump_block;
 }
 
+IdRange Simulation::balls_of_block(std::size_t block) const {
+  const auto rubber_blocks = static_cast<std::size_t>(balls.n_blocks);
+  if (block < rubber_blocks) {
+    const int width = static_cast<int>(k_lanes), first = static_cast<int>(block) * width;
+    return {first * k_grain_balls, std::min(first + width, balls.n_grains) * k_grain_balls};
+  }
+  const std::size_t begin = (block - rubber_blocks) * k_clump_block;
+  const std::size_t end = std::min(begin + k_clump_block, clumps.clumps.size());
+  const Clump &first = clumps.clumps[begin], &last = clumps.clumps[end - 1];
+  const int base = balls.n_rubber_balls();
+  return {base + first.first_pebble, base + last.first_pebble + last.n_pebbles};
+}
+
 Material Simulation::material_of_ball(int id) const {
   return static_cast<Material>(material_of[static_cast<std::size_t>(id)]);
 }
@@ -223,29 +236,6 @@ FrictionTable Simulation::material_friction() const {
   return t;
 }
 
-HertzParameters Simulation::contact_parameters(int ball_i, int ball_j, int wall) const {
-  const Material mi = material_of_ball(ball_i);
-  const bool at_wall = wall >= 0;
-  const Material mj = at_wall ? mi : material_of_ball(ball_j);
-  const MixedElastic mixed =
-      mix(elastic(settings_of(scene, mi)), elastic(at_wall ? scene.walls : settings_of(scene, mj)));
-  const auto mass_of = [&](int id) {
-    if (id < balls.n_rubber_balls()) return rubber_of_grain(id / k_grain_balls).ball_mass;
-    const int c = clumps.clump_of_pebble[static_cast<std::size_t>(id - balls.n_rubber_balls())];
-    return clumps.clumps[static_cast<std::size_t>(c)].mass;
-  };
-  const double ri = balls.radius_of_id(ball_i), rj = at_wall ? 0.0 : balls.radius_of_id(ball_j);
-  HertzParameters p;
-  p.hertz = hertz_coefficient(mixed, ri, rj);
-  p.shear_ratio = mindlin_ratio(mixed);
-  p.friction = at_wall ? mix_friction(friction.against_walls[mi], walls[static_cast<std::size_t>(wall)].friction)
-                       : friction.between_grains[mi][mj];
-  const double m = at_wall ? mass_of(ball_i) : mass_of(ball_i) * mass_of(ball_j) / (mass_of(ball_i) + mass_of(ball_j));
-  p.normal_dashpot = dashpot_coefficient(scene.contact.normal_damping_ratio, m, 1.5 * p.hertz);
-  p.shear_dashpot = dashpot_coefficient(scene.contact.shear_damping_ratio, m, 1.5 * p.hertz * p.shear_ratio);
-  return p;
-}
-
 void Simulation::set_time_step(double step) {
   if (!(step > 0.0)) throw InputError("the time step must be positive");
   dt = last_dt = step;
@@ -268,75 +258,6 @@ void Simulation::reset_velocities() {
     balls.set_spin(i, {});
   }
   for (Clump& c : clumps.clumps) c.velocity = c.angular_momentum = c.spin = {};
-}
-
-void Simulation::rebuild_candidates() {
-  const auto n = static_cast<std::size_t>(balls.n_balls());
-  for (auto& a : built_at) a.resize(n);
-  choose_margins(*this);
-  std::vector<double> reach(n);  // radius and margin
-  for (std::size_t id = 0; id < n; ++id) {
-    const int i = balls.index_of_id(static_cast<int>(id));
-    const Vec3 p = balls.position(i);
-    built_at[0][id] = p.x;
-    built_at[1][id] = p.y;
-    built_at[2][id] = p.z;
-    reach[id] = balls.radius_of_id(static_cast<int>(id)) + margins.margin[speed_block_of(static_cast<int>(id))];
-  }
-  const SearchBalls view{built_at[0], built_at[1], built_at[2], reach, body_of};
-  contacts.replace(find_pairs(view, 0.0), find_wall_pairs(view, walls, margins.wall_margin), balls.n_rubber_balls());
-  prepare_rows();
-  candidates_valid = true;
-  ++rebuilds;
-}
-
-void Simulation::prepare_rows() {
-  const bool dashpots = scene.contact.normal_damping_ratio > 0.0 || scene.contact.shear_damping_ratio > 0.0;
-  contacts.normal_dashpot.resize(dashpots ? contacts.n_rows() : 0);
-  contacts.shear_dashpot.resize(dashpots ? contacts.n_rows() : 0);
-  for (auto* a : {&contacts.damping_x, &contacts.damping_y, &contacts.damping_z}) {
-    a->resize(dashpots ? contacts.n_rows() : 0);
-  }
-  const auto fill = [&](std::size_t row, int ball, const HertzParameters& p) {
-    contacts.index_i[row] = balls.index_of_id(ball);
-    contacts.radius_i[row] = balls.radius_of_id(ball);
-    contacts.hertz[row] = p.hertz;
-    contacts.shear_ratio[row] = p.shear_ratio;
-    contacts.friction[row] = p.friction;
-    if (dashpots) {
-      contacts.normal_dashpot[row] = p.normal_dashpot;
-      contacts.shear_dashpot[row] = p.shear_dashpot;
-    }
-  };
-  contacts.has_equal_rubber = rubber_sizes.size() == 1;
-  contacts.between_rubber_balls = balls.n_grains > 0 ? contact_parameters(0, 0, -1) : HertzParameters{};
-  for (std::size_t c = 0; c < contacts.n_pairs(); ++c) {
-    const int i = first_of(contacts.pairs[c]), j = second_of(contacts.pairs[c]);
-    const bool is_equal = c < contacts.n_rubber_pairs && contacts.has_equal_rubber;
-    fill(c, i, is_equal ? contacts.between_rubber_balls : contact_parameters(i, j, -1));
-    contacts.index_j[c] = balls.index_of_id(j);
-    contacts.radius_j[c] = balls.radius_of_id(j);
-  }
-  wall_group.clear();
-  for (std::size_t c = 0; c < contacts.wall_pairs.size(); ++c) {
-    const PairKey key = contacts.wall_pairs[c];
-    fill(contacts.n_pair_rows() + c, first_of(key), contact_parameters(first_of(key), -1, second_of(key)));
-    contacts.index_j[contacts.n_pair_rows() + c] = second_of(key);
-    if (c == 0 || first_of(key) != first_of(contacts.wall_pairs[c - 1])) wall_group.push_back(static_cast<int>(c));
-  }
-  wall_group.push_back(static_cast<int>(contacts.wall_pairs.size()));
-  wall_block.clear();
-  for (int id = 0; id < balls.n_balls() + k_wall_block; id += k_wall_block) {
-    const auto end = std::partition_point(wall_group.begin(), wall_group.end() - 1, [&](int row) {
-      return first_of(contacts.wall_pairs[static_cast<std::size_t>(row)]) < id;
-    });
-    wall_block.push_back(static_cast<int>(end - wall_group.begin()));
-  }
-  for (std::size_t g = 0; g + 1 < wall_group.size(); ++g) {
-    require(wall_group[g + 1] - wall_group[g] <= k_most_walls_per_ball,
-            "a ball is near more walls than the wall stage holds");
-  }
-  references.build(contacts, owner_of, place_of, balls.n_blocks + static_cast<int>(clumps.clumps.size()));
 }
 
 }  // namespace dem

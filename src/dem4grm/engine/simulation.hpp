@@ -15,6 +15,7 @@
 
 #include "dem4grm/core/aligned_array.hpp"
 #include "dem4grm/engine/candidate_margins.hpp"
+#include "dem4grm/engine/near_pairs.hpp"
 #include "dem4grm/engine/scene.hpp"
 #include "dem4grm/grains/ball_store.hpp"
 #include "dem4grm/grains/clump_store.hpp"
@@ -29,6 +30,11 @@ namespace dem {
 struct FrictionTable {
   std::array<std::array<double, k_materials>, k_materials> between_grains{};
   std::array<double, k_materials> against_walls{};  ///< of the grain's side; the wall's own value caps it
+};
+
+/// Ball ids [first, last).
+struct IdRange {
+  int first = 0, last = 0;
 };
 
 /// Forces of the grains on one wall at the last evaluation.
@@ -102,6 +108,7 @@ class Simulation {
   void reset_velocities();
   /// Must be called after positions, sizes or walls were changed by hand.
   void invalidate_candidates() { candidates_valid = false; }
+  /// A new list of candidates; searches for near pairs only when the known ones may miss some.
   void rebuild_candidates();
   /// Fills what follows from the lists of candidates: constants of the rows, groups of walls, references of the owners.
   void prepare_rows();
@@ -124,6 +131,8 @@ class Simulation {
   }
   /// Place of the block of a ball in block_top_speed2.
   [[nodiscard]] std::size_t speed_block_of(int id) const;
+  /// Balls of a block of block_top_speed2.
+  [[nodiscard]] IdRange balls_of_block(std::size_t block) const;
   /// "rubber grain 12, ball 3" or "clump 7, pebble 1".
   [[nodiscard]] std::string name_of_ball(int id) const;
   /// Constants of the contact of two balls, or of a ball and a wall when wall >= 0.
@@ -151,9 +160,11 @@ class Simulation {
   std::int64_t steps = 0;
   std::int64_t rebuilds = 0;
   CandidateMargins margins;
+  NearPairs near;  ///< no part of the state: the lists do not depend on it
   bool candidates_valid = false;
   std::vector<double> scratch_slip, scratch_dashpot;  ///< partial sums of one stage
   std::vector<WallReaction> scratch_reactions;
+  std::vector<double> scratch_reach;            ///< [n_balls] m
   std::vector<double> block_top_speed2;         ///< [n_blocks + clump blocks] m2/s2
   std::vector<int> wall_group;                  ///< first wall row of every ball near a wall, and the end
   std::vector<int> wall_block;                  ///< first group of every block of k_wall_block ball ids, and the end

@@ -43,4 +43,8 @@ struct ContactSettings {
   int dashpot_mode = 0;               ///< 0 full; 1 no net tension; 2 shear dashpot off while slipping; 3 both
 };
 
+constexpr bool has_dashpots(const ContactSettings& c) {
+  return c.normal_damping_ratio > 0.0 || c.shear_damping_ratio > 0.0;
+}
+
 }  // namespace dem

@@ -3,30 +3,37 @@
 
 #include <algorithm>
 
+#include "dem4grm/core/blocks.hpp"
+
 namespace dem {
 
 namespace {
 
-/// For every new key the position of the same key in the old list: one pass over two sorted lists.
+constexpr std::size_t k_block = 4096;  // rows
+
+/// For every new key the position of the same key in the old list: in every block one pass over two sorted lists.
 void match(std::span<const PairKey> old_keys, std::span<const PairKey> new_keys, std::size_t old_base,
-           std::size_t new_base, std::vector<std::ptrdiff_t>& source) {
-  std::size_t o = 0;
-  for (std::size_t n = 0; n < new_keys.size(); ++n) {
-    while (o < old_keys.size() && old_keys[o] < new_keys[n]) ++o;
-    if (o < old_keys.size() && old_keys[o] == new_keys[n]) {
-      source[new_base + n] = static_cast<std::ptrdiff_t>(old_base + o);
+           std::span<std::ptrdiff_t> source) {
+  for_each_block(new_keys.size(), k_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    auto old = std::lower_bound(old_keys.begin(), old_keys.end(), new_keys[begin]);
+    for (std::size_t n = begin; n < end; ++n) {
+      while (old != old_keys.end() && *old < new_keys[n]) ++old;
+      if (old == old_keys.end()) return;
+      if (*old == new_keys[n]) source[n] = old - old_keys.begin() + static_cast<std::ptrdiff_t>(old_base);
     }
-  }
+  });
 }
 
 /// Brings the values of rows that stay to their new rows; the others become zero.
 template <class Value>
-void carry_over(const std::vector<std::ptrdiff_t>& source, AlignedArray<Value>& values) {
-  AlignedArray<Value> fresh(source.size());
-  for (std::size_t r = 0; r < source.size(); ++r) {
-    if (source[r] >= 0) fresh[r] = values[static_cast<std::size_t>(source[r])];
-  }
-  values.swap(fresh);
+void carry_over(const std::vector<std::ptrdiff_t>& source, AlignedArray<Value>& values, AlignedArray<Value>& spare) {
+  spare.resize(source.size());
+  for_each_block(source.size(), k_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) {
+      spare[r] = source[r] >= 0 ? values[static_cast<std::size_t>(source[r])] : Value{};
+    }
+  });
+  values.swap(spare);
 }
 
 }  // namespace
@@ -40,14 +47,16 @@ void ContactTable::replace(std::vector<PairKey> new_pairs, std::vector<PairKey> 
   const std::size_t rows = new_pair_rows + new_wall_pairs.size();
   std::vector<std::ptrdiff_t> source(rows, -1);
   const std::span old_keys(pairs), new_keys(new_pairs);
-  match(old_keys.first(n_rubber_pairs), new_keys.first(new_rubber_pairs), 0, 0, source);
-  match(old_keys.subspan(n_rubber_pairs), new_keys.subspan(new_rubber_pairs), n_rubber_pairs, new_rubber_pairs, source);
-  match(wall_pairs, new_wall_pairs, old_pair_rows, new_pair_rows, source);
+  const std::span into(source);
+  match(old_keys.first(n_rubber_pairs), new_keys.first(new_rubber_pairs), 0, into);
+  match(old_keys.subspan(n_rubber_pairs), new_keys.subspan(new_rubber_pairs), n_rubber_pairs,
+        into.subspan(new_rubber_pairs));
+  match(wall_pairs, new_wall_pairs, old_pair_rows, into.subspan(new_pair_rows));
 
   // Forces are carried too, so that a reader of the table between two steps sees the last evaluation.
-  carry_over(source, state);
+  carry_over(source, state, spare_state);
   if (!damping_x.empty()) {
-    for (auto* a : {&damping_x, &damping_y, &damping_z}) carry_over(source, *a);
+    for (auto* a : {&damping_x, &damping_y, &damping_z}) carry_over(source, *a, spare_damping);
   }
   pairs = std::move(new_pairs);
   n_rubber_pairs = new_rubber_pairs;

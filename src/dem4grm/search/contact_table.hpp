@@ -51,6 +51,8 @@ struct ContactTable {
 
   AlignedArray<ContactState> state;                      ///< history and result of the last evaluation
   AlignedArray<double> damping_x, damping_y, damping_z;  ///< N, shear dashpot on i; empty when dashpots are off
+  AlignedArray<ContactState> spare_state;                ///< room for the next list
+  AlignedArray<double> spare_damping;
 
   [[nodiscard]] std::size_t n_pairs() const { return pairs.size(); }
   [[nodiscard]] std::size_t n_pair_rows() const {

@@ -2,6 +2,7 @@
 // Rectangular walls and how a ball meets one: on its face, or at its edge or corner.
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,11 @@ DEM_INLINE WallView look_at(const Wall& w, const Vec3& centre) {
     view.away = view.distance > 0.0 ? d * (1.0 / view.distance) : w.normal;
   }
   return view;
+}
+
+/// True when the rectangle is nearer to the ball centre than the reach (m), from either side.
+inline bool comes_within(const Wall& w, const Vec3& centre, double reach) {
+  return std::fabs(dot(centre - w.corner, w.normal)) <= reach && look_at(w, centre).distance < reach;
 }
 
 /// True when the point lies on the rectangle, borders included, within the tolerance (m).

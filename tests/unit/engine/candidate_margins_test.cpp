@@ -76,6 +76,44 @@ TEST(CandidateMargins, AListIsGivenUpWhenItsMarginIsUsed) {
   EXPECT_EQ(s.rebuilds, before + 1);
 }
 
+TEST(NearPairs, AreSearchedAnewWhenABlockHasUsedItsReserve) {
+  Simulation s = row_of_spheres();
+  s.margins.tunes = false;
+  s.near.reserve = 5.0;
+  push(s, 0, 1.0);
+  s.step();
+  s.invalidate_candidates();
+  s.step();
+  ASSERT_EQ(s.near.margin[0], 5.0 * s.margins.margin[0]);
+  const std::int64_t before = s.near.searches;
+  // The next list needs its own margin free of the five: four may be used up.
+  const double reach = 4.0 * s.margins.margin[0];
+  while (s.clumps.clumps[0].position.y - s.near.found_at[1][0] < 0.7 * reach) s.step();
+  EXPECT_EQ(s.near.searches, before);
+  EXPECT_GE(s.rebuilds, 4);
+  const double found = s.near.found_at[1][0];
+  while (s.clumps.clumps[0].position.y - found < 1.3 * reach) s.step();
+  EXPECT_EQ(s.near.searches, before + 1);
+}
+
+TEST(NearPairs, MovingWallsUseThemUpToo) {
+  Simulation s = row_of_spheres();
+  s.walls.push_back(make_wall("far", {-1, 0.5, -1}, {0, 0, 2}, {2, 0, 0}));
+  s.reactions.resize(1);
+  s.last_wall_velocity.resize(1);
+  s.margins.tunes = false;
+  s.walls[0].velocity = {0, 1, 0};
+  s.step();
+  const std::int64_t before = s.near.searches, lists = s.rebuilds;
+  const double reach = s.near.wall_margin - s.margins.wall_margin, start = s.walls[0].corner.y;
+  while (s.walls[0].corner.y - start < 0.8 * reach) s.step();
+  EXPECT_EQ(s.near.searches, before);
+  EXPECT_GT(s.rebuilds, lists + 3);
+  // A list lasts for one margin, so there is one in the next margin of the path.
+  while (s.walls[0].corner.y - start < reach + s.margins.wall_margin + 3e-6) s.step();
+  EXPECT_EQ(s.near.searches, before + 1);
+}
+
 TEST(CandidateMargins, TheHorizonFollowsWhatPays) {
   // Grains that only fly apart list nobody: searches are all that costs, so lists are made for longer and longer.
   Simulation s = row_of_spheres();
