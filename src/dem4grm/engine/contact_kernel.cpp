@@ -33,12 +33,12 @@ Rows rows_of(Simulation& s) {
 /// Rows ahead of the present batch whose balls are fetched into the cache meanwhile.
 constexpr std::size_t k_rows_ahead = 4 * k_contact_batch;
 
-/// Starts to load the balls of the rows [c, c + k_contact_batch): nine neighbouring cache lines each.
+/// Starts to load the second balls of the rows [c, c + k_contact_batch): nine neighbouring cache lines each. Rows are
+/// sorted by their first balls, so those are in the cache already.
 DEM_INLINE void prefetch_balls(const Rows& r, std::size_t c) {
   for (std::size_t lane = 0; lane < k_contact_batch; ++lane) {
-    for (const double* ball : {r.balls + r.index_i[c + lane], r.balls + r.index_j[c + lane]}) {
-      for (std::size_t k = 0; k < k_pebble_components; ++k) __builtin_prefetch(ball + k * k_lanes);
-    }
+    const double* ball = r.balls + r.index_j[c + lane];
+    for (std::size_t k = 0; k < k_pebble_components; ++k) __builtin_prefetch(ball + k * k_lanes);
   }
 }
 
