@@ -85,6 +85,19 @@ TEST_P(SavedState, GoesOnWithAnotherNumberOfThreads) {
   EXPECT_EQ(fingerprint(loaded), fingerprint(straight));
 }
 
+TEST_P(SavedState, ReplacesThatOfASimulationWithGrainsOfAnotherSize) {
+  Simulation straight = run_mixture(options(), 300);
+  Simulation other = straight;
+  for (double& radius : other.balls.pebble_radius) radius *= 0.2;
+  other.invalidate_candidates();
+  other.step();  // hardly any pairs are near each other now
+  StateArchive archive(saved(straight));
+  exchange(archive, other);
+  advance(straight, 100);
+  advance(other, 100);
+  EXPECT_EQ(fingerprint(other), fingerprint(straight));
+}
+
 INSTANTIATE_TEST_SUITE_P(Branches, SavedState,
                          ::testing::Combine(::testing::Values(0, 1),
                                             ::testing::Values(BondForm::history_free, BondForm::incremental)));

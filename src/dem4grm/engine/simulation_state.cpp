@@ -69,6 +69,7 @@ void exchange_search(StateArchive& archive, Simulation& s) {
   archive.exchange("built_at_x", s.built_at[0]);
   archive.exchange("built_at_y", s.built_at[1]);
   archive.exchange("built_at_z", s.built_at[2]);
+  if (archive.is_loading()) s.near.is_valid = false;  // found for other positions and sizes
 }
 
 void exchange_walls(StateArchive& archive, Simulation& s) {
