@@ -54,14 +54,7 @@ bool near_pairs_hold(const Simulation& s) {
   for_each_block(blocks, k_few_blocks, [&](std::size_t part, std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
       const double free = near.margin[block] - s.margins.margin[block];
-      const IdRange ids = s.balls_of_block(block);
-      double moved2 = 0.0;
-      for (auto id = static_cast<std::size_t>(ids.first); id < static_cast<std::size_t>(ids.last); ++id) {
-        const Vec3 d{s.built_at[0][id] - near.found_at[0][id], s.built_at[1][id] - near.found_at[1][id],
-                     s.built_at[2][id] - near.found_at[2][id]};
-        moved2 = std::max(moved2, dot(d, d));
-      }
-      if (free < 0.0 || moved2 > free * free) has_left[part] = 1;
+      if (largest_displacement(s, block, near.found_at) > free) has_left[part] = 1;
     }
   });
   return std::none_of(has_left.begin(), has_left.end(), [](unsigned char left) { return left != 0; });
@@ -93,13 +86,13 @@ struct MixedMaterials {
 };
 
 MixedMaterials mixed_materials(const Scene& scene) {
-  const auto elastic = [](const MaterialSettings& m) { return Elastic{m.shear_modulus, m.poisson_ratio}; };
-  const std::array<Elastic, k_materials> grains{elastic(scene.gravel), elastic(scene.rubber)};
-  static_assert(k_gravel == 0 && k_rubber == 1);
   MixedMaterials mixed;
-  for (std::size_t a = 0; a < k_materials; ++a) {
-    for (std::size_t b = 0; b < k_materials; ++b) mixed.between_grains[a][b] = mix(grains[a], grains[b]);
-    mixed.against_walls[a] = mix(grains[a], elastic(scene.walls));
+  for (const Material a : {k_gravel, k_rubber}) {
+    const Elastic one = elastic(settings_of(scene, a));
+    for (const Material b : {k_gravel, k_rubber}) {
+      mixed.between_grains[a][b] = mix(one, elastic(settings_of(scene, b)));
+    }
+    mixed.against_walls[a] = mix(one, elastic(scene.walls));
   }
   return mixed;
 }

@@ -17,26 +17,13 @@ constexpr double k_search_cost = 8.0;
 constexpr double k_shortest_horizon = 4.0, k_longest_horizon = 1e5;  // steps
 constexpr double k_largest_change = 2.0;                             // of the horizon from one list to the next
 
-/// Largest displacement of a ball of the block since the list was built, m.
-double displacement_of(const Simulation& s, std::size_t block) {
-  double largest2 = 0.0;
-  const IdRange range = s.balls_of_block(block);
-  for (int id = range.first; id < range.last; ++id) {
-    const auto k = static_cast<std::size_t>(id);
-    const Vec3 d =
-        s.balls.position(s.balls.index_of_id(id)) - Vec3{s.built_at[0][k], s.built_at[1][k], s.built_at[2][k]};
-    largest2 = std::max(largest2, dot(d, d));
-  }
-  return std::sqrt(largest2);
-}
-
 /// The travels sum top speeds; true displacements are often smaller. True when the list still holds.
 bool holds_by_true_displacements(Simulation& s) {
   CandidateMargins& m = s.margins;
   if (m.wall_travel > m.wall_margin) return false;
   for (std::size_t block = 0; block < m.travel.size(); ++block) {
     if (m.travel[block] <= m.margin[block]) continue;
-    m.travel[block] = displacement_of(s, block);
+    m.travel[block] = largest_displacement(s, block, s.built_at);
     if (m.travel[block] > k_waiting_share * m.margin[block]) return false;
   }
   m.is_used_up = false;
@@ -58,6 +45,17 @@ double horizon_that_pays(const Simulation& s) {
 }
 
 }  // namespace
+
+double largest_displacement(const Simulation& s, std::size_t block, const BallPositions& since) {
+  double largest2 = 0.0;
+  const IdRange range = s.balls_of_block(block);
+  for (int id = range.first; id < range.last; ++id) {
+    const auto k = static_cast<std::size_t>(id);
+    const Vec3 d = s.balls.position(s.balls.index_of_id(id)) - Vec3{since[0][k], since[1][k], since[2][k]};
+    largest2 = std::max(largest2, dot(d, d));
+  }
+  return std::sqrt(largest2);
+}
 
 void choose_margins(Simulation& s) {
   CandidateMargins& m = s.margins;

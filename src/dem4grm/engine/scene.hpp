@@ -8,6 +8,7 @@
 #include "dem4grm/engine/settings.hpp"
 #include "dem4grm/grains/clump_template.hpp"
 #include "dem4grm/grains/material.hpp"
+#include "dem4grm/laws/mixing.hpp"
 #include "dem4grm/walls/wall.hpp"
 
 namespace dem {
@@ -46,5 +47,11 @@ struct Scene {
   std::vector<PlacedClump> clumps;
   std::vector<Wall> wall_list;
 };
+
+inline const MaterialSettings& settings_of(const Scene& scene, Material m) {
+  return m == k_rubber ? scene.rubber : scene.gravel;
+}
+
+inline Elastic elastic(const MaterialSettings& m) { return {m.shear_modulus, m.poisson_ratio}; }
 
 }  // namespace dem

@@ -13,12 +13,6 @@ namespace dem {
 
 namespace {
 
-Elastic elastic(const MaterialSettings& m) { return {m.shear_modulus, m.poisson_ratio}; }
-
-const MaterialSettings& settings_of(const Scene& scene, Material m) {
-  return m == k_rubber ? scene.rubber : scene.gravel;
-}
-
 double ball_mass(double radius, double density) {
   return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius * density;
 }

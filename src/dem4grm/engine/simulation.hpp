@@ -164,14 +164,14 @@ class Simulation {
   bool candidates_valid = false;
   std::vector<double> scratch_slip, scratch_dashpot;  ///< partial sums of one stage
   std::vector<WallReaction> scratch_reactions;
-  std::vector<double> scratch_reach;            ///< [n_balls] m
-  std::vector<double> block_top_speed2;         ///< [n_blocks + clump blocks] m2/s2
-  std::vector<int> wall_group;                  ///< first wall row of every ball near a wall, and the end
-  std::vector<int> wall_block;                  ///< first group of every block of k_wall_block ball ids, and the end
-  std::array<std::vector<double>, 3> built_at;  ///< [n_balls] positions when the list was built, m
-  std::vector<int> body_of;                     ///< [n_balls]
-  std::vector<int> owner_of, place_of;          ///< [n_balls] see ContactReferences
-  std::vector<unsigned char> material_of;       ///< [n_balls]
+  std::vector<double> scratch_reach;       ///< [n_balls] m
+  std::vector<double> block_top_speed2;    ///< [n_blocks + clump blocks] m2/s2
+  std::vector<int> wall_group;             ///< first wall row of every ball near a wall, and the end
+  std::vector<int> wall_block;             ///< first group of every block of k_wall_block ball ids, and the end
+  BallPositions built_at;                  ///< when the list was built
+  std::vector<int> body_of;                ///< [n_balls]
+  std::vector<int> owner_of, place_of;     ///< [n_balls] see ContactReferences
+  std::vector<unsigned char> material_of;  ///< [n_balls]
 
  private:
   void choose_rubber_sizes();
@@ -187,6 +187,9 @@ struct BondReading {
   bool is_broken = false;
 };
 BondReading read_bond(const Simulation& s, int grain, int bond_index);
+
+/// Largest displacement of a ball of the block (of block_top_speed2) since it was at the given positions, m.
+double largest_displacement(const Simulation& s, std::size_t block, const BallPositions& since);
 
 /// Sets the margins of the next list of candidates from the present speeds.
 void choose_margins(Simulation& s);

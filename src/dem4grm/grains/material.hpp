@@ -43,6 +43,7 @@ struct ContactSettings {
   int dashpot_mode = 0;               ///< 0 full; 1 no net tension; 2 shear dashpot off while slipping; 3 both
 };
 
+/// True when contacts have a normal or a shear dashpot.
 constexpr bool has_dashpots(const ContactSettings& c) {
   return c.normal_damping_ratio > 0.0 || c.shear_damping_ratio > 0.0;
 }
