@@ -26,7 +26,7 @@ int measure(const std::string& source, int steps) {
     dem::evaluate_wall_contacts(s);
     naive_times.add(bench::time_of([&] { naive.run(s); }));
     engine_times.add(bench::time_of([&] {
-      dem::evaluate_ball_contacts(s);
+      dem::evaluate_early_contacts(s);
       dem::advance_rubber_grains(s);
     }));
     dem::move_walls(s);

@@ -11,35 +11,13 @@
 #include <vector>
 
 #include "dem4grm/core/blocks.hpp"
-#include "dem4grm/engine/contact_sums.hpp"
+#include "dem4grm/engine/kernels/kernels.hpp"
 #include "support.hpp"
 
 namespace {
 
 /// One number of every block, so that no loop can be left out by the compiler.
 using Kept = std::vector<double>;
-
-void run_bonds(dem::Simulation& s, Kept& kept) {
-  dem::for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
-    dem::BlockForces load;
-    dem::BlockLosses losses;
-    dem::begin_loads(dem::ContactLoads{}, load);
-    dem::add_history_free_bonds(s.rubber().bond, dem::grain_block(s.balls, block), s.dt, load, losses);
-    kept[block] = load.value[0] + losses.dashpot[0];
-  });
-}
-
-void run_sums(dem::Simulation& s, Kept& kept) {
-  dem::for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
-    dem::ContactLoads contacts;
-    if (s.contacts.has_dashpots()) {
-      dem::gather_contacts<true>(s, block, contacts);
-    } else {
-      dem::gather_contacts<false>(s, block, contacts);
-    }
-    kept[block] = contacts.value[0][0];
-  });
-}
 
 /// What the ordered sums would be without their order: every row adds to both its bodies at once, by atomic additions.
 void run_atomic_sums(const dem::Simulation& s, std::vector<std::array<double, 8>>& loads) {
@@ -84,12 +62,12 @@ void measure_all(const std::string& source, int repeats) {
   fmt::print("{},kernel,fastest_us,median_us,items,fastest_ns_per_item\n", bench::common_columns());
   const auto bonds = static_cast<std::size_t>(s.balls.n_grains) * dem::k_grain_bonds;
   if (s.scene.bond.form == dem::BondForm::history_free) {
-    measure(common, "bonds", bonds, repeats, [&] { run_bonds(s, kept); });
+    measure(common, "bonds", bonds, repeats, [&] { dem::kernels().evaluate_bonds_alone(s, kept); });
   }
   measure(common, "ball contacts", s.contacts.n_pairs(), repeats, [&] { dem::evaluate_ball_contacts(s); });
   measure(common, "wall contacts", s.contacts.wall_pairs.size(), repeats, [&] { dem::evaluate_wall_contacts(s); });
   const auto references = static_cast<std::size_t>(s.references.start[blocks]);
-  measure(common, "ordered sums", references, repeats, [&] { run_sums(s, kept); });
+  measure(common, "ordered sums", references, repeats, [&] { dem::kernels().sum_contacts_alone(s, kept); });
   std::vector<std::array<double, 8>> loads(static_cast<std::size_t>(s.balls.n_balls()));
   measure(common, "atomic sums", 2 * s.contacts.n_pairs(), repeats, [&] { run_atomic_sums(s, loads); });
   const auto balls = static_cast<std::size_t>(s.balls.n_balls());

@@ -27,7 +27,7 @@ void measure(const std::string& source, int steps) {
   bench::Loaded loaded = bench::specimen_of(source);
   dem::Simulation& s = *loaded.specimen.simulation;
   std::vector<Stage> stages{{"candidates", dem::refresh_candidates, {}},
-                            {"ball contacts", dem::evaluate_ball_contacts, {}},
+                            {"early ball contacts", dem::evaluate_early_contacts, {}},
                             {"wall contacts", dem::evaluate_wall_contacts, {}},
                             {"rubber grains", dem::advance_rubber_grains, {}},
                             {"clumps", dem::advance_clumps, {}},

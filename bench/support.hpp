@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/io/case_file.hpp"
 #include "dem4grm/io/checkpoint_file.hpp"
 #include "dem4grm/io/output_folder.hpp"
@@ -108,6 +109,7 @@ int run_benchmark(int argc, const char* usage, const Work& work) {
     return 64;
   }
   try {
+    if (const char* target = std::getenv("DEM4GRM_TARGET")) dem::choose_kernel_target(target);
     return work();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
@@ -121,14 +123,14 @@ inline int argument(int argc, char** argv, int place, int otherwise) {
 }
 
 inline const char* common_columns() {
-  return "commit,compiler,native,processor,threads,case,rubber_grains,clumps,balls,pairs,wall_pairs";
+  return "commit,compiler,target,processor,threads,case,rubber_grains,clumps,balls,pairs,wall_pairs";
 }
 
 /// "model name" of /proc/cpuinfo.
 std::string processor_name();
 
 inline std::string common_row(const std::string& name, const dem::Simulation& s) {
-  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", dem::k_commit, dem::k_compiler, dem::k_native,
+  return fmt::format("{},{},{},{},{},{},{},{},{},{},{}", dem::k_commit, dem::k_compiler, dem::kernel_target(),
                      processor_name(), omp_get_max_threads(), name, s.balls.n_grains, s.clumps.clumps.size(),
                      s.balls.n_balls(), s.contacts.n_pairs(), s.contacts.wall_pairs.size());
 }

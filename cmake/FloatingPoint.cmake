@@ -7,15 +7,13 @@
 # no -ffast-math           sums keep the order in which they are written.
 # -fno-math-errno, -fno-trapping-math
 #                          change no value; they let the compiler use the vector square root and vector selects.
-# -mprefer-vector-width=512  full-width vectors for the lane loops over 8 grains or 8 contacts.
 add_library(dem4grm_floating_point INTERFACE)
 target_compile_options(dem4grm_floating_point INTERFACE
   -ffp-contract=off -fno-tree-slp-vectorize -fno-math-errno -fno-trapping-math)
-if(DEM4GRM_NATIVE AND NOT DEM4GRM_SANITIZE)
-  target_compile_options(dem4grm_floating_point INTERFACE -march=native)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|amd64|AMD64")
-    target_compile_options(dem4grm_floating_point INTERFACE -mprefer-vector-width=512)
-  endif()
+# Every x86-64 processor since 2009; the hot loops are compiled for newer ones too (cmake/KernelTargets.cmake).
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|amd64|AMD64")
+  target_compile_options(dem4grm_floating_point INTERFACE
+    $<$<NOT:$<BOOL:$<TARGET_PROPERTY:DEM4GRM_KERNEL_TARGET>>>:-march=x86-64-v2>)
 endif()
 if(DEM4GRM_SANITIZE)
   # docs/decisions/0009-sanitizer-checks.md says which checks are left to the address sanitizer.

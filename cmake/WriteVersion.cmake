@@ -19,7 +19,6 @@ inline constexpr const char* k_version = \"${VERSION}\";
 inline constexpr const char* k_commit = \"${commit}\";
 inline constexpr const char* k_compiler = \"${COMPILER}\";
 inline constexpr const char* k_build_type = \"${BUILD_TYPE}\";
-inline constexpr const char* k_native = \"${NATIVE}\";
 }  // namespace dem
 ")
 set(old "")

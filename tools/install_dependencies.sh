@@ -16,12 +16,14 @@ build_packages=(
   libhdf5-dev libxxhash-dev libeigen3-dev
 )
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
-# see docs/decisions/0003-thread-sanitizer.md.
+# see docs/decisions/0003-thread-sanitizer.md. The last line compiles and runs the engine for 64-bit Arm,
+# see docs/decisions/0017-processor-targets.md.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
   clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
   python3 python3-numpy python3-h5py python3-matplotlib
+  g++-aarch64-linux-gnu qemu-user
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.

@@ -15,8 +15,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/io/test_writer.hpp"
 #include "dem4grm/version.hpp"
 #include "terminal.hpp"
@@ -34,8 +36,9 @@ int fail(ExitCode code, const std::string& message) {
 }
 
 std::string version_text() {
-  return fmt::format("dem4grm {}\ncommit   {}\ncompiler {}, {}\n", dem::k_version, dem::k_commit, dem::k_compiler,
-                     dem::k_build_type);
+  return fmt::format("dem4grm {}\ncommit   {}\ncompiler {}, {}\ntarget   {} (usable here: {})\n", dem::k_version,
+                     dem::k_commit, dem::k_compiler, dem::k_build_type, dem::kernel_target(),
+                     fmt::join(dem::usable_kernel_targets(), ", "));
 }
 
 /// What the verb asks for help or what was wrong with the words on the command line.
@@ -50,7 +53,19 @@ int answer_parser(CLI::App& app, const CLI::ParseError& error) {
   return fail(ExitCode::usage, fmt::format("{}\nsee dem4grm{} --help", error.what(), verb));
 }
 
+/// A user may want other loops than the best ones: to compare, or because the best ones make a processor hot and slow.
+void choose_target() {
+  const char* target = std::getenv("DEM4GRM_TARGET");
+  if (target == nullptr || *target == 0) return;
+  try {
+    dem::choose_kernel_target(target);
+  } catch (const dem::InputError& error) {
+    throw dem::Error(ExitCode::usage, fmt::format("DEM4GRM_TARGET: {}", error.what()));
+  }
+}
+
 int run_program(int argc, char** argv) {
+  choose_target();
   CLI::App app{"Gravel-rubber mixtures in a virtual direct shear box", "dem4grm"};
   app.set_version_flag("--version", version_text(), "version, commit and compiler");
   app.require_subcommand(1);

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Times DEM4GRM beside LAMMPS, LIGGGHTS and YADE on the same balls, in turn.
 
-  bench/peers/compare.py [--rounds 3] [--cores 2] [--scene NAME] [--folder build/bench-peers] [--install]
+  bench/peers/compare.py [--rounds 3] [--cores 2] [--targets v4,v3] [--scene NAME] [--folder build/bench-peers]
+                         [--install]
 
 Prints CSV, one row for each run (round, scene, code, balls, touching pairs, steps, seconds, million ball-steps per
 second), and at the end a table of medians and of the ratios of DEM4GRM to each code within a round. Programs that are
-not installed are left out; --install installs those that Debian ships. docs/performance.md says what the scenes are.
+not installed are left out; --install installs those that Debian ships. DEM4GRM runs once for each of the processor
+targets that are named, by default the best one. docs/performance.md says what the scenes are.
 Exit codes: 0 done, 1 a program failed, 77 none of the others is installed.
 """
 import argparse
@@ -31,9 +33,9 @@ STEPS = {"spheres": (4000, 1000, 1000, 1000, 150), "clumps": (8000, 1500, 1500, 
          "clusters-1000": (4000, 0, 0, 0, 100), "clusters-6000": (600, 0, 0, 0, 15)}
 
 
-def run(command, folder, log, cores):
+def run(command, folder, log, cores, **more):
     """Output of a program that must succeed; `cores` threads or processes."""
-    environment = dict(os.environ, OMP_NUM_THREADS=str(cores), OMP_PROC_BIND="true", GOMP_SPINCOUNT="100000",
+    environment = dict(os.environ, **more, OMP_NUM_THREADS=str(cores), OMP_PROC_BIND="true", GOMP_SPINCOUNT="100000",
                        OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     done = subprocess.run([str(word) for word in command], cwd=folder, env=environment, text=True, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -75,8 +77,9 @@ def variables(**values):
     return [word for name, value in values.items() for word in ("-var", name, str(value))]
 
 
-def run_dem4grm(folder, scene, steps, options):
-    text = run([options.program, "run", ".", scene, steps], folder, f"{scene}.dem4grm.log", options.cores)
+def run_dem4grm(folder, scene, steps, options, target):
+    more = {"DEM4GRM_TARGET": target} if target else {}
+    text = run([options.program, "run", ".", scene, steps], folder, f"{scene}.dem4grm.log", options.cores, **more)
     balls, touching, seconds = text.split()[-3:]
     return int(balls), int(touching), float(seconds)
 
@@ -118,21 +121,21 @@ def run_yade(folder, scene, steps, options):
     return int(balls), int(touching), float(seconds)
 
 
-RUNNERS = {"dem4grm": run_dem4grm, "lammps": run_lammps, "lammps-fast": functools.partial(run_lammps, law="fast"),
+RUNNERS = {"lammps": run_lammps, "lammps-fast": functools.partial(run_lammps, law="fast"),
            "liggghts": run_liggghts, "yade": run_yade}
 # What must be on the path for each of the others.
 PROGRAMS = {"lammps": "lmp", "lammps-fast": "lmp", "liggghts": "liggghts", "yade": "yade"}
 
 
-def report(speeds):
-    """speeds[scene][code]: one speed per round."""
-    print(f"\n{'scene':<16} {'code':<10} {'M ball-steps/s':>15} {'DEM4GRM faster by':>18}  range over rounds")
+def report(speeds, ours):
+    """speeds[scene][code]: one speed per round; ours: the codes that are DEM4GRM, one for each target."""
+    print(f"\n{'scene':<16} {'code':<12} {'M ball-steps/s':>15}  " + "  ".join(f"{name} faster by (range)" for name in ours))
     for scene, codes in speeds.items():
         for code, values in codes.items():
-            line = f"{scene:<16} {code:<10} {statistics.median(values):>15.2f}"
-            if code != "dem4grm":
-                ratios = [ours / theirs for ours, theirs in zip(codes["dem4grm"], values)]
-                line += f" {statistics.median(ratios):>18.1f}  {min(ratios):.1f} to {max(ratios):.1f}"
+            line = f"{scene:<16} {code:<12} {statistics.median(values):>15.2f}"
+            for name in ours if code not in ours else ():
+                ratios = [mine / theirs for mine, theirs in zip(codes[name], values)]
+                line += f"  {statistics.median(ratios):>8.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
             print(line)
 
 
@@ -140,6 +143,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--cores", type=int, default=2)
+    parser.add_argument("--targets", default="", help="processor targets of DEM4GRM, with commas between them")
     parser.add_argument("--scene", action="append", choices=list(STEPS), help="default: all")
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build/bench-peers")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/bench/bench/bench_peer_scenes")
@@ -148,8 +152,8 @@ def main():
     if options.install:
         subprocess.run([str(ROOT / "tools/install_dependencies.sh"), "peers"], check=True)
     options.program = options.program.resolve()
-    found = {"dem4grm", *(code for code, program in PROGRAMS.items() if shutil.which(program))}
-    if found == {"dem4grm"}:
+    found = {code for code, program in PROGRAMS.items() if shutil.which(program)}
+    if not found:
         print("skipped: none of LAMMPS, LIGGGHTS and YADE is installed; tools/install_dependencies.sh peers")
         return 77
     options.folder = options.folder.resolve()
@@ -157,20 +161,24 @@ def main():
     if not (options.folder / "clusters-6000.csv").exists():
         run([options.program, "make", options.folder], options.folder, "make.log", options.cores)
     print("round,scene,code,cores,balls,touching_pairs,steps,seconds,million_ball_steps_per_second")
+    ours = {f"dem4grm-{name}" if name else "dem4grm": functools.partial(run_dem4grm, target=name)
+            for name in options.targets.split(",")}
+    runners = {**ours, **{code: RUNNERS[code] for code in CODES[1:] if code in found}}
     speeds = {}
     for number in range(1, options.rounds + 1):
         for scene in options.scene or STEPS:
-            for code, steps in zip(CODES, STEPS[scene]):
-                if code not in found or steps == 0:
+            for code, runner in runners.items():
+                steps = STEPS[scene][0 if code in ours else CODES.index(code)]
+                if steps == 0:
                     continue
-                balls, touching, seconds = RUNNERS[code](options.folder, scene, steps, options)
+                balls, touching, seconds = runner(options.folder, scene, steps, options)
                 if balls != len(balls_of(options.folder, scene)):
                     raise RuntimeError(f"{code} has {balls} balls in scene {scene}: delete {options.folder} and try again")
                 speed = balls * steps / seconds * 1e-6
                 speeds.setdefault(scene, {}).setdefault(code, []).append(speed)
                 print(f"{number},{scene},{code},{options.cores},{balls},{touching},{steps},{seconds:.3f},{speed:.3f}",
                       flush=True)
-    report(speeds)
+    report(speeds, list(ours))
     return 0
 
 

@@ -88,7 +88,9 @@ TEST_P(SavedState, GoesOnWithAnotherNumberOfThreads) {
 TEST_P(SavedState, ReplacesThatOfASimulationWithGrainsOfAnotherSize) {
   Simulation straight = run_mixture(options(), 300);
   Simulation other = straight;
-  for (double& radius : other.balls.pebble_radius) radius *= 0.2;
+  for (int p = 0; p < other.balls.n_pebbles; ++p) {
+    other.balls.set_pebble_radius(p, 0.2 * other.balls.pebble_radius(p));
+  }
   other.invalidate_candidates();
   other.step();  // hardly any pairs are near each other now
   StateArchive archive(saved(straight));

@@ -2,7 +2,8 @@
 // The bits do not depend on how many grains lie side by side in a vector register.
 //
 // CMakeLists.txt of this folder builds the engine again with 1 and 4 lanes; each of those programs prints the hashes of
-// the same four runs. Not tested: builds for processors without wide vectors.
+// the same four runs, and so does one for 64-bit Arm in an emulator. Not tested: Arm with wide vectors (SVE), and real
+// processors of that kind.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -39,6 +40,18 @@ TEST(Lanes, ScalarAndNarrowBuildsGiveTheSameBits) {
 #else
 
 TEST(Lanes, ScalarAndNarrowBuildsGiveTheSameBits) { GTEST_SKIP() << "built without the programs of the other widths"; }
+
+#endif
+
+#ifdef DEM_ARM_PROGRAM
+
+TEST(Lanes, ABuildFor64BitArmGivesTheSameBits) {
+  EXPECT_EQ(output_of(DEM_ARM_PROGRAM), dem::test::all_mixture_hashes(dem::test::k_few_steps));
+}
+
+#else
+
+TEST(Lanes, ABuildFor64BitArmGivesTheSameBits) { GTEST_SKIP() << "no cross-compiler or no emulator"; }
 
 #endif
 

@@ -43,10 +43,10 @@ TEST_P(TurnedContact, KeepsItsForcesOverAFullTurn) {
   const auto row = static_cast<std::size_t>(pair_row(s, 0, 1));
   // A tangential load below slip, with components along y and z.
   for (int k = 0; k < 20; ++k) {
-    lead(s, 1, s.balls.position(1) + Vec3{0, 0.15e-6, -0.1e-6}, {});
+    lead(s, 1, s.balls.position(s.balls.pebble_index(1)) + Vec3{0, 0.15e-6, -0.1e-6}, {});
     evaluate_ball_contacts(s);
   }
-  lead(s, 1, s.balls.position(1), {});
+  lead(s, 1, s.balls.position(s.balls.pebble_index(1)), {});
   evaluate_ball_contacts(s);
   const Vec3 force = s.contacts.force(row), shear = s.contacts.shear(row);
   ASSERT_GT(norm(shear), 0.1 * norm(force));
@@ -54,7 +54,7 @@ TEST_P(TurnedContact, KeepsItsForcesOverAFullTurn) {
 
   const int n = 720;
   const Vec3 spin = spin_for(GetParam(), 2 * k_pi / n, dt);
-  const Vec3 start[2] = {s.balls.position(0), s.balls.position(1)};
+  const Vec3 start[2] = {s.balls.position(0), s.balls.position(s.balls.pebble_index(1))};
   Quaternion q;
   Vec3 last_force = force, last_couple = s.contacts.couple(row);
   double work = 0.0, worst = 0.0;
@@ -68,7 +68,7 @@ TEST_P(TurnedContact, KeepsItsForcesOverAFullTurn) {
     const Vec3 mean_force = (f + last_force) * 0.5, mean_couple = (couple + last_couple) * 0.5;
     last_force = f;
     last_couple = couple;
-    work += (dot(mean_force, s.balls.velocity(0) - s.balls.velocity(1)) +
+    work += (dot(mean_force, s.balls.velocity(s.balls.pebble_index(0)) - s.balls.velocity(s.balls.pebble_index(1))) +
              dot(mean_couple, spin) * (s.contacts.lever_i(row) + s.contacts.lever_j(row))) *
             dt;
     worst = std::max(worst, norm(f - rotate(q, force)) / norm(force));

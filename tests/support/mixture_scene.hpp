@@ -87,6 +87,9 @@ inline Simulation run_mixture(const MixtureOptions& o, int steps) {
   return s;
 }
 
+/// Enough for every kernel to be used, few enough for an emulated processor.
+inline constexpr int k_few_steps = 40;
+
 /// Hashes of a set of runs that together use every branch of the kernels, one line each; compared between builds.
 inline std::string all_mixture_hashes(int steps) {
   std::string text;

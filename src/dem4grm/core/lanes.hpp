@@ -12,6 +12,13 @@
 /// A law called from a lane loop must be inlined or the loop is not vectorised.
 #define DEM_INLINE [[gnu::always_inline]] inline
 
+/// In front of a short loop over registers: rolled up, they would be indexed, and for that put into memory.
+#ifdef __clang__
+#define DEM_UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define DEM_UNROLL _Pragma("GCC unroll 9")
+#endif
+
 namespace dem {
 
 inline constexpr std::size_t k_lanes = DEM_LANES;

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "dem4grm/core/state_hash.hpp"
-#include "dem4grm/engine/grain_block.hpp"
 #include "dem4grm/engine/simulation.hpp"
 
 namespace dem {

@@ -182,6 +182,26 @@ void group_wall_rows(Simulation& s) {
   }
 }
 
+void group_rubber_rows(Simulation& s) {
+  const ContactTable& t = s.contacts;
+  RubberBatches& b = s.rubber_batches;
+  const std::size_t batches = t.n_rubber_pairs / k_contact_batch;
+  const auto block_of = [&](int ball) { return s.owner_of[static_cast<std::size_t>(ball)]; };
+  b.first.assign(static_cast<std::size_t>(s.balls.n_blocks) + 1, 0);
+  b.last_block.assign(batches, 0);
+  b.slip.assign(batches, 0.0);
+  b.dashpot.assign(batches, 0.0);
+  b.part_length = 0;
+  for (std::size_t batch = 0; batch < batches; ++batch) {
+    const std::size_t row = batch * k_contact_batch;
+    ++b.first[static_cast<std::size_t>(block_of(first_of(t.pairs[row]))) + 1];
+    for (std::size_t k = row; k < row + k_contact_batch; ++k) {
+      b.last_block[batch] = std::max(b.last_block[batch], block_of(second_of(t.pairs[k])));
+    }
+  }
+  for (std::size_t block = 1; block < b.first.size(); ++block) b.first[block] += b.first[block - 1];
+}
+
 }  // namespace
 
 HertzParameters Simulation::contact_parameters(int ball_i, int ball_j, int wall) const {
@@ -211,6 +231,7 @@ void Simulation::prepare_rows() {
   fill_pair_rows(*this, mixed);
   fill_wall_rows(*this, mixed);
   group_wall_rows(*this);
+  group_rubber_rows(*this);
   references.build(contacts, owner_of, place_of, balls.n_blocks + static_cast<int>(clumps.clumps.size()));
 }
 

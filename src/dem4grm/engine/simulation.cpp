@@ -173,7 +173,7 @@ void Simulation::place_clumps() {
       clumps.pebble_offset.push_back(offset);
       clumps.clump_of_pebble.push_back(static_cast<int>(c));
       balls.set_position(i, body.position + to_space(frame, offset));
-      balls.pebble_radius[static_cast<std::size_t>(pebble)] = p.radius * d;
+      balls.set_pebble_radius(pebble, p.radius * d);
       body_of[id] = balls.n_grains + static_cast<int>(c);
       owner_of[id] = balls.n_blocks + static_cast<int>(c);
       place_of[id] = i;
@@ -244,6 +244,14 @@ void Simulation::set_friction(const FrictionTable& table) {
   friction = table;
   candidates_valid = false;  // the rows hold their friction
 }
+
+std::size_t prepare_partial_works(Simulation& s, std::size_t blocks) {
+  s.scratch_slip.assign(blocks, 0.0);
+  s.scratch_dashpot.assign(blocks, 0.0);
+  return blocks;
+}
+
+void prepare_partial_reactions(Simulation& s, std::size_t n) { s.scratch_reactions.assign(n, WallReaction{}); }
 
 void Simulation::reset_velocities() {
   for (int id = 0; id < balls.n_balls(); ++id) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of a simulation and the stages of one time step.
 //
-// Order of a step (step.cpp): candidates - ball contacts - wall contacts - rubber grains - clumps - walls. Positions
+// Order of a step (step.cpp): candidates - ball contacts - wall contacts - rubber grains, with the contacts that wait for
+// them (rubber_batches.hpp) - clumps - walls. Positions
 // belong to full steps, velocities to half steps (leapfrog); contact laws see the positions of the full step and the
 // velocities that led there. Every stage runs over blocks of fixed size, every sum has a fixed order: the bits do not
 // depend on the number of threads, on the pack width or on when the list of candidates was built; only the last bits of
@@ -16,6 +17,7 @@
 #include "dem4grm/core/aligned_array.hpp"
 #include "dem4grm/engine/candidate_margins.hpp"
 #include "dem4grm/engine/near_pairs.hpp"
+#include "dem4grm/engine/rubber_batches.hpp"
 #include "dem4grm/engine/scene.hpp"
 #include "dem4grm/grains/ball_store.hpp"
 #include "dem4grm/grains/clump_store.hpp"
@@ -145,6 +147,7 @@ class Simulation {
   std::vector<Wall> walls;
   ContactTable contacts;
   ContactReferences references;  ///< owners: blocks of grains, then clumps
+  RubberBatches rubber_batches;
   GrainHistory grain_history;
   std::vector<RubberSize> rubber_sizes;  ///< the reference size first, whether or not a grain has it
   std::vector<int> size_of_block;        ///< [n_blocks] row of rubber_sizes
@@ -196,11 +199,21 @@ void choose_margins(Simulation& s);
 
 // The stages of a step, in order.
 void refresh_candidates(Simulation& s);
-void evaluate_ball_contacts(Simulation& s);
+/// All contacts of two balls but those that wait until their rubber grains are advanced.
+void evaluate_early_contacts(Simulation& s);
 void evaluate_wall_contacts(Simulation& s);
 void advance_rubber_grains(Simulation& s);
 void advance_clumps(Simulation& s);
 void move_walls(Simulation& s);
+
+/// Makes room for the works of so many blocks of a stage in scratch_slip and scratch_dashpot, all zero; returns their
+/// number.
+std::size_t prepare_partial_works(Simulation& s, std::size_t blocks);
+/// The same for the forces on walls in scratch_reactions.
+void prepare_partial_reactions(Simulation& s, std::size_t n);
+
+/// All contacts of two balls at once, for readers of forces: after it none waits.
+void evaluate_ball_contacts(Simulation& s);
 
 /// Largest number of walls that one ball may be near at a time.
 inline constexpr int k_most_walls_per_ball = 16;

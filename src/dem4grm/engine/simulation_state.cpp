@@ -8,10 +8,7 @@
 namespace dem {
 namespace {
 
-void exchange_balls(StateArchive& archive, BallStore& b) {
-  archive.exchange_fixed("state", b.state.span());
-  archive.exchange_fixed("pebble_radius", std::span(b.pebble_radius));
-}
+void exchange_balls(StateArchive& archive, BallStore& b) { archive.exchange_fixed("state", b.state.span()); }
 
 constexpr std::size_t k_clump_numbers = 16;
 

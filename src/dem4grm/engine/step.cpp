@@ -12,7 +12,7 @@ namespace dem {
 void Simulation::step() {
   require(dt > 0.0, "the time step was never set");
   refresh_candidates(*this);
-  evaluate_ball_contacts(*this);
+  evaluate_early_contacts(*this);
   evaluate_wall_contacts(*this);
   advance_rubber_grains(*this);
   advance_clumps(*this);

@@ -224,7 +224,7 @@ TimeStepLimit expected_clump_limit(const Simulation& s, double stress) {
     const MixedElastic mixed = mix(elastic, elastic);
     double radius = 0.0;
     for (int p = body.first_pebble; p < body.first_pebble + body.n_pebbles; ++p) {
-      radius = std::max(radius, s.balls.pebble_radius[static_cast<std::size_t>(p)]);
+      radius = std::max(radius, s.balls.pebble_radius(p));
     }
     const double force = 10.0 * stress * body.size * body.size;
     const double h = hertz_coefficient(mixed, radius, radius);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/version.hpp"
 
@@ -31,6 +32,7 @@ JsonObject origin_of(const std::string& test, const std::string& name, const Run
           {"commit", k_commit},
           {"compiler", k_compiler},
           {"build_type", k_build_type},
+          {"processor_target", std::string(kernel_target())},
           {"threads", facts.threads}};
 }
 

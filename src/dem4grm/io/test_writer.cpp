@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/io/checkpoint_file.hpp"
 #include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/io/output_file.hpp"
@@ -42,8 +43,9 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
       is_direct_shear_(std::holds_alternative<DirectShearCase>(loaded.test)),
       past_wall_time_(past_wall_time),
       last_checkpoint_(past_wall_time) {
-  log_.info(fmt::format("dem4grm {} (commit {}, {}), host {}, {} thread{}", k_version, k_commit, k_compiler,
-                        host_name(), threads, threads == 1 ? "" : "s"));
+  log_.info(fmt::format("dem4grm {} (commit {}, {}), host {}, {} thread{}, loops for processors of target {}",
+                        k_version, k_commit, k_compiler, host_name(), threads, threads == 1 ? "" : "s",
+                        kernel_target()));
   log_.info(fmt::format("case {}", case_name(loaded.test)));
   if (is_direct_shear_) {
     table_.emplace(folder.file(file_name::k_shear), shear_columns());

@@ -163,6 +163,20 @@ struct HertzPair {
   Vec3 shear;                             ///< shear force on i of the last step, N
 };
 
+/// Where the pair was one step ago.
+struct HertzBefore {
+  Vec3 direction;        ///< from i to j, of any length
+  double length = 0.0;   ///< of the direction
+  double overlap = 0.0;  ///< m; not positive when apart
+};
+
+/// formula:  old branch = b - v dt exactly, so nothing but the shear force needs to be remembered.
+DEM_INLINE HertzBefore one_step_ago(const HertzPair& p, double dt) {
+  const Vec3 old_branch = p.branch - p.relative_velocity * dt;
+  const double length = std::sqrt(dot(old_branch, old_branch) + k_tiny);
+  return {old_branch, length, p.radius_i + p.radius_j - length};
+}
+
 /// Geometry of the contact of two balls and what moved since the last step.
 struct HertzGeometry {
   HertzMotion motion;
@@ -172,32 +186,33 @@ struct HertzGeometry {
 
 /// formula:  n = b/|b|,  d = R_i + R_j - |b|,  l_i = R_i - d/2,
 ///           v_s = [ v - (l_i w_i + l_j w_j)/|b| x (b - v dt/2) ] perpendicular to n
-/// The branch one step ago is b - v dt exactly, so nothing but the shear force needs to be remembered. The spins act on
-/// the mid-step branch: with the Cayley map of rigid_rotation.hpp a pair that turns rigidly then has v_s = 0 to
-/// rounding.
-DEM_INLINE HertzGeometry hertz_geometry(const HertzPair& p, double dt) {
+/// The spins act on the mid-step branch: with the Cayley map of rigid_rotation.hpp a pair that turns rigidly then has
+/// v_s = 0 to rounding. A caller that remembers the normal of the last step gives it as `before`; a pair that carries no
+/// shear force may give zeros.
+DEM_INLINE HertzGeometry hertz_geometry(const HertzPair& p, const HertzBefore& before, double dt) {
   // Apart, the overlap is 0 and the law gives 0 for force, history and work by itself: no branch, no mask.
   const double length = std::sqrt(dot(p.branch, p.branch) + k_tiny);
   const double inverse = 1.0 / length;
   const Vec3 n = p.branch * inverse;
-  const double reach = p.radius_i + p.radius_j;
-  const double overlap = reach - length;
-  const Vec3 old_branch = p.branch - p.relative_velocity * dt;
-  const double old_length = std::sqrt(dot(old_branch, old_branch) + k_tiny);
+  const double overlap = p.radius_i + p.radius_j - length;
   const Vec3 middle = p.branch - p.relative_velocity * (0.5 * dt);
 
   HertzGeometry g;
   g.normal = n;
   g.motion.overlap = overlap > 0.0 ? overlap : 0.0;
-  g.motion.old_overlap = reach - old_length;
+  g.motion.old_overlap = before.overlap;
   g.motion.normal_speed = dot(p.relative_velocity, n);
   g.lever_i = p.radius_i - 0.5 * g.motion.overlap;
   g.lever_j = p.radius_j - 0.5 * g.motion.overlap;
   const Vec3 rolling = cross(p.spin_i * (g.lever_i * inverse) + p.spin_j * (g.lever_j * inverse), middle);
   g.motion.shear_velocity = perpendicular(p.relative_velocity - rolling, n);
   const double half_twist = 0.25 * dt * dot(p.spin_i + p.spin_j, n);
-  g.motion.carried_shear = perpendicular(carried_and_turned(p.shear, old_branch, old_length, n, half_twist), n);
+  g.motion.carried_shear =
+      perpendicular(carried_and_turned(p.shear, before.direction, before.length, n, half_twist), n);
   return g;
+}
+DEM_INLINE HertzGeometry hertz_geometry(const HertzPair& p, double dt) {
+  return hertz_geometry(p, one_step_ago(p, dt), dt);
 }
 
 /// Elastic energy of a contact, J: (2/5) h d^(5/2) + F_s^2 / (2 k_s).

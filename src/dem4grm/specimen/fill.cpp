@@ -126,7 +126,7 @@ void set_scale(Simulation& s, double scale) {
       const Pebble& p = shape.pebbles[static_cast<std::size_t>(k)];
       const Vec3 offset = p.position * (c.size * scale);
       s.clumps.pebble_offset[static_cast<std::size_t>(pebble)] = offset;
-      s.balls.pebble_radius[static_cast<std::size_t>(pebble)] = p.radius * c.size * scale;
+      s.balls.set_pebble_radius(pebble, p.radius * c.size * scale);
       s.balls.set_position(s.balls.pebble_index(pebble), c.position + to_space(frame, offset));
     }
   }

@@ -160,10 +160,11 @@ void run_carried_pebbles(Findings& f) {
   const Clump& c = clump(s, 0);
   double worst_place = 0.0, worst_velocity = 0.0, worst_spin = 0.0;
   for (int p = 0; p < c.n_pebbles; ++p) {
+    const int i = s.balls.pebble_index(p);
     const Vec3 arm = rotate(c.orientation, scene.shapes[0].pebbles[static_cast<std::size_t>(p)].position * size);
-    worst_place = std::max(worst_place, norm(s.balls.position(p) - c.position - arm));
-    worst_velocity = std::max(worst_velocity, norm(s.balls.velocity(p) - c.velocity - cross(c.spin, arm)));
-    worst_spin = std::max(worst_spin, norm(s.balls.spin(p) - c.spin));
+    worst_place = std::max(worst_place, norm(s.balls.position(i) - c.position - arm));
+    worst_velocity = std::max(worst_velocity, norm(s.balls.velocity(i) - c.velocity - cross(c.spin, arm)));
+    worst_spin = std::max(worst_spin, norm(s.balls.spin(i) - c.spin));
   }
   f.absolute("centroid after 30 ms of straight flight, distance from v t", "m", 0.0,
              norm(c.position - start - velocity * s.time), 1e-14, "Newton's first law");

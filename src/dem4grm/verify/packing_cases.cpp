@@ -82,7 +82,7 @@ struct Level {
 
 /// All radii times the factor; masses stay.
 void scale_radii(Simulation& s, double factor) {
-  for (double& r : s.balls.pebble_radius) r *= factor;
+  for (int p = 0; p < s.balls.n_pebbles; ++p) s.balls.set_pebble_radius(p, s.balls.pebble_radius(p) * factor);
   s.invalidate_candidates();
 }
 

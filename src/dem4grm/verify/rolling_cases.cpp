@@ -165,7 +165,7 @@ void run_braking(Findings& f, double friction) {
   const double speed = 0.05, time = speed / (friction * k_gravity);
   set_motion(s, 0, {speed, 0, 0});
   double front = 0.0, rear = 0.0, ended = 0.0, resting_place = 0.0;
-  const int first = s.balls.position(0).x > s.balls.position(1).x ? 0 : 1;
+  const int first = s.balls.position(s.balls.pebble_index(0)).x > s.balls.position(s.balls.pebble_index(1)).x ? 0 : 1;
   while (s.time < 1.3 * time) {
     step_under(s, {0, 0, -k_gravity});
     if (ended == 0.0 && clump(s, 0).velocity.x <= 0.0) ended = s.time;

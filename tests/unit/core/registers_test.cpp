@@ -11,13 +11,10 @@ using namespace dem;
 
 TEST(Registers, TransposeSwapsRowsAndColumns) {
   double from[8][8], to[8][8];
-  Eight r[8];
   for (int row = 0; row < 8; ++row) {
     for (int column = 0; column < 8; ++column) from[row][column] = 10.0 * row + column;
-    r[row] = load_eight(from[row]);
   }
-  transpose(r);
-  for (int row = 0; row < 8; ++row) store_eight(to[row], r[row]);
+  transpose_eight(EightRows<const double>(from[0], 8).at, EightRows<double>(to[0], 8).at);
   for (int row = 0; row < 8; ++row) {
     for (int column = 0; column < 8; ++column) EXPECT_EQ(to[row][column], 10.0 * column + row);
   }
@@ -38,6 +35,36 @@ TEST(Registers, AddsInPlace) {
   add_four(sum, Four{10, 20, 30, 40});
   EXPECT_EQ(sum[0], 11.0);
   EXPECT_EQ(sum[3], 44.0);
+}
+
+template <class Vector>
+void expect_transposed_by_squares_of() {
+  double from[8][8], to[8][8];
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) from[row][column] = 10.0 * row + column;
+  }
+  dem::detail::transpose_by_squares<Vector>(EightRows<const double>(from[0], 8).at, EightRows<double>(to[0], 8).at);
+  for (int row = 0; row < 8; ++row) {
+    for (int column = 0; column < 8; ++column) EXPECT_EQ(to[row][column], 10.0 * column + row);
+  }
+}
+
+// Whatever this file is compiled for, the ways of all targets are tried.
+TEST(Registers, TransposesBySquaresOfEveryWidth) {
+  expect_transposed_by_squares_of<Two>();
+  expect_transposed_by_squares_of<Four>();
+  expect_transposed_by_squares_of<Eight>();
+}
+
+TEST(Registers, CollectsFromManyPlaces) {
+  double places[8][5], to[k_register];
+  const double* from[k_register];
+  for (std::size_t k = 0; k < 8; ++k) {
+    for (std::size_t n = 0; n < 5; ++n) places[k][n] = static_cast<double>(10 * k + n);
+  }
+  for (std::size_t k = 0; k < k_register; ++k) from[k] = places[k];
+  collect(from, 3, to);
+  for (std::size_t k = 0; k < k_register; ++k) EXPECT_EQ(to[k], places[k][3]);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "dem4grm/core/registers.hpp"
-#include "dem4grm/engine/grain_block.hpp"
+#include "dem4grm/engine/kernels/grain_block.hpp"
 
 namespace dem {
 
@@ -24,8 +24,8 @@ DEM_INLINE void gather_contacts(const Simulation& s, std::size_t block, ContactL
     const ContactState& contact = states[row];
     const double sign = (places[k] & ContactReferences::k_second) != 0 ? -1.0 : 1.0;
     const double lever = radius - 0.5 * contact.overlap;
-    const Four n = load_four(&contact.normal.x);
-    Four shear = load_four(&contact.shear.x);
+    const Four n = load<Four>(&contact.normal.x);
+    Four shear = load<Four>(&contact.shear.x);
     if constexpr (dashpots) shear += Four{t.damping_x[row], t.damping_y[row], t.damping_z[row], 0.0};
     const Four force = (shear - n * contact.normal_force) * sign;
     double* to = out.value[places[k] & ~ContactReferences::k_second];
@@ -40,11 +40,11 @@ DEM_INLINE void begin_loads(const ContactLoads& contacts, BlockForces& out) {
     const auto* of_slot = contacts.value + slot * k_lanes;
     double* to = out.value + load_at(slot, 0);
     if constexpr (k_lanes == 8) {
-      Eight v[8];
-      for (std::size_t lane = 0; lane < 8; ++lane) v[lane] = load_eight(of_slot[lane]);
-      transpose(v);
-      for (std::size_t c = 0; c < 3; ++c) store_eight(to + c * 8, v[c]);
-      for (std::size_t c = 3; c < 6; ++c) store_eight(to + c * 8, v[c + 1]);
+      double nobody_reads[8];
+      const EightRows<const double> from(of_slot[0], 8);
+      double* const components[8] = {to,         to + 8,     to + 2 * 8, nobody_reads,
+                                     to + 3 * 8, to + 4 * 8, to + 5 * 8, nobody_reads};
+      transpose_eight(from.at, components);
     } else {
       for (std::size_t lane = 0; lane < k_lanes; ++lane) {
         for (std::size_t c = 0; c < 3; ++c) to[c * k_lanes + lane] = of_slot[lane][c];

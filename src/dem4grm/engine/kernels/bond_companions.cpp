@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Forces between bonded balls beside the bond and its frictionless spring: options of the rubber study, off by default,
 // and therefore written for clarity, one pair at a time.
-#include "dem4grm/engine/grain_block.hpp"
-#include "dem4grm/engine/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/rubber_parts.hpp"
 
-namespace dem {
+namespace dem::DEM_TARGET {
 
 namespace {
 
@@ -64,4 +64,4 @@ void add_bond_companions(Simulation& s, std::size_t block, BlockForces& out, Blo
                      [&](auto options) { add_companions<decltype(options)::value>(s, block, out, losses); });
 }
 
-}  // namespace dem
+}  // namespace dem::DEM_TARGET

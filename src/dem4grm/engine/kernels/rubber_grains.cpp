@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "dem4grm/core/blocks.hpp"
-#include "dem4grm/engine/contact_sums.hpp"
-#include "dem4grm/engine/grain_block.hpp"
-#include "dem4grm/engine/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/contact_sums.hpp"
+#include "dem4grm/engine/kernels/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/kernels.hpp"
+#include "dem4grm/engine/kernels/rubber_parts.hpp"
 #include "dem4grm/laws/local_damping.hpp"
 #include "dem4grm/laws/rigid_rotation.hpp"
 
-namespace dem {
+namespace dem::DEM_TARGET {
 
 namespace {
 
@@ -87,11 +88,46 @@ void advance_block(Simulation& s, std::size_t block) {
 }  // namespace
 
 void advance_rubber_grains(Simulation& s) {
+  const auto blocks = static_cast<std::size_t>(s.balls.n_blocks);
+  const auto part_length = static_cast<std::size_t>(s.rubber_batches.part_length);
   with_hertz_options(s.scene.contact, [&](auto options) {
-    for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
-      advance_block<decltype(options)::value>(s, block);
+    if (part_length == 0) {
+      for_each_block(blocks, 1, [&](std::size_t block, std::size_t, std::size_t) {
+        advance_block<decltype(options)::value>(s, block);
+      });
+      return;
+    }
+    for_each_block(blocks, part_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t block = begin; block < end; ++block) {
+        evaluate_waiting_contacts(s, block);
+        advance_block<decltype(options)::value>(s, block);
+      }
     });
+  });
+  if (part_length > 0) add_works_of_rubber(s);
+  s.rubber_batches.part_length = 0;
+}
+
+void evaluate_bonds_alone(Simulation& s, std::span<double> kept) {
+  for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
+    BlockForces load;
+    BlockLosses losses;
+    begin_loads(ContactLoads{}, load);
+    add_history_free_bonds(s.rubber_of_block(block).bond, grain_block(s.balls, block), s.dt, load, losses);
+    kept[block] = load.value[0] + losses.dashpot[0];
   });
 }
 
-}  // namespace dem
+void sum_contacts_alone(Simulation& s, std::span<double> kept) {
+  for_each_block(static_cast<std::size_t>(s.balls.n_blocks), 1, [&](std::size_t block, std::size_t, std::size_t) {
+    ContactLoads contacts;
+    if (s.contacts.has_dashpots()) {
+      gather_contacts<true>(s, block, contacts);
+    } else {
+      gather_contacts<false>(s, block, contacts);
+    }
+    kept[block] = contacts.value[0][0];
+  });
+}
+
+}  // namespace dem::DEM_TARGET

@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "dem4grm/core/lane_vectors.hpp"
-#include "dem4grm/engine/grain_block.hpp"
-#include "dem4grm/engine/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/rubber_parts.hpp"
 
-namespace dem {
+namespace dem::DEM_TARGET {
 
 namespace {
 
@@ -134,4 +134,4 @@ void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g
                      [&](auto options) { add_closed_pairs<decltype(options)::value>(s, block, g, out, losses); });
 }
 
-}  // namespace dem
+}  // namespace dem::DEM_TARGET

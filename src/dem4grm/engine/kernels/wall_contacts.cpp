@@ -6,10 +6,11 @@
 
 #include "dem4grm/core/blocks.hpp"
 #include "dem4grm/core/lane_vectors.hpp"
-#include "dem4grm/engine/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/kernels.hpp"
 #include "dem4grm/engine/wall_touches.hpp"
 
-namespace dem {
+namespace dem::DEM_TARGET {
 
 namespace {
 
@@ -26,8 +27,10 @@ DEM_INLINE Vec3 carried_at_wall(const Vec3& f, const Vec3& n, double half_twist)
 
 /// Starts to load the ball of a row.
 void prefetch_ball(const Simulation& s, std::size_t row) {
-  const double* ball = s.balls.state.data() + s.contacts.index_i[row];
-  for (std::size_t k = 0; k < k_pebble_components; ++k) __builtin_prefetch(ball + k * k_lanes);
+  const int index = s.contacts.index_i[row];
+  const double* ball = s.balls.state.data() + index;
+  const std::size_t stride = s.balls.stride_of(index);
+  for (std::size_t k = 0; k < k_pebble_components; ++k) __builtin_prefetch(ball + k * stride);
 }
 
 struct Works {
@@ -182,10 +185,9 @@ void evaluate_block(Simulation& s, std::size_t block) {
 template <HertzOptions options>
 void evaluate(Simulation& s) {
   const std::size_t blocks = s.wall_block.empty() ? 0 : s.wall_block.size() - 1, n_walls = s.walls.size();
-  auto& partial = s.scratch_reactions;
-  partial.assign(blocks * n_walls, WallReaction{});
-  s.scratch_slip.assign(blocks, 0.0);
-  s.scratch_dashpot.assign(blocks, 0.0);
+  const std::vector<WallReaction>& partial = s.scratch_reactions;
+  prepare_partial_reactions(s, blocks * n_walls);
+  prepare_partial_works(s, blocks);
   for_each_block(blocks, 1, [&](std::size_t block, std::size_t, std::size_t) { evaluate_block<options>(s, block); });
   std::fill(s.reactions.begin(), s.reactions.end(), WallReaction{});
   for (std::size_t block = 0; block < blocks; ++block) {
@@ -206,4 +208,4 @@ void evaluate_wall_contacts(Simulation& s) {
   with_hertz_options(s.scene.contact, [&](auto options) { evaluate<decltype(options)::value>(s); });
 }
 
-}  // namespace dem
+}  // namespace dem::DEM_TARGET

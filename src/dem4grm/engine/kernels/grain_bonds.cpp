@@ -2,10 +2,10 @@
 // The 64 bonds of k_lanes grains at once, in both forms.
 #include <utility>
 
-#include "dem4grm/engine/grain_block.hpp"
-#include "dem4grm/engine/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/hertz_dispatch.hpp"
+#include "dem4grm/engine/kernels/rubber_parts.hpp"
 
-namespace dem {
+namespace dem::DEM_TARGET {
 
 namespace {
 
@@ -191,4 +191,4 @@ void add_incremental_bonds(Simulation& s, std::size_t block, BlockForces& out, B
                      [&](auto options) { add_incremental<decltype(options)::value>(s, block, out, losses); });
 }
 
-}  // namespace dem
+}  // namespace dem::DEM_TARGET

@@ -34,7 +34,7 @@ constexpr std::size_t ball_at(std::size_t slot, std::size_t lane) {
   return slot * k_rubber_components * k_lanes + lane;
 }
 
-inline GrainBlock grain_block(BallStore& b, std::size_t block) {
+DEM_INLINE GrainBlock grain_block(BallStore& b, std::size_t block) {
   using C = BallComponent;
   const auto at = [base = b.state.data() + block * k_block_length](C c) { return base + component_offset(c); };
   return {at(C::x),  at(C::y),  at(C::z),  at(C::vx), at(C::vy), at(C::vz), at(C::wx),
@@ -59,20 +59,5 @@ struct alignas(64) BlockLosses {
   double slip[k_lanes] = {};
   double dashpot[k_lanes] = {};
 };
-
-/// Contacts of second neighbours within the grains of one block, with their history (second_neighbours.cpp).
-void add_second_neighbours(Simulation& s, std::size_t block, const GrainBlock& g, BlockForces& out,
-                           BlockLosses& losses);
-
-/// Bonds of one block in the history-free form (grain_bonds.cpp).
-void add_history_free_bonds(const BondParameters& p, const GrainBlock& g, double dt, BlockForces& out,
-                            BlockLosses& losses);
-
-/// What a case asks for beside the bonds of one block: linear springs with friction, or Hertz contacts
-/// (bond_companion.cpp).
-void add_bond_companions(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses);
-
-/// Bonds of one block in the incremental form; broken pairs become Hertz contacts in the same step.
-void add_incremental_bonds(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses);
 
 }  // namespace dem

@@ -5,11 +5,11 @@
 #include "dem4grm/core/blocks.hpp"
 #include "dem4grm/core/lane_vectors.hpp"
 #include "dem4grm/core/registers.hpp"
-#include "dem4grm/engine/simulation.hpp"
+#include "dem4grm/engine/kernels/kernels.hpp"
 #include "dem4grm/laws/local_damping.hpp"
 #include "dem4grm/laws/rigid_rotation.hpp"
 
-namespace dem {
+namespace dem::DEM_TARGET {
 
 namespace {
 
@@ -26,46 +26,53 @@ DEM_INLINE Load gather(const Simulation& s, std::size_t c) {
   const Four centroid{at.x, at.y, at.z, 0.0};
   const ContactTable& t = s.contacts;
   const ContactState* const states = t.state.data();
-  const double* const radius_i = t.radius_i.data();
-  const double* const radius_j = t.radius_j.data();
-  const double* const x = s.balls.component(BallComponent::x);
+  const double* const balls = s.balls.state.data();
   const int* const rows = s.references.row.data();
   const int* const places = s.references.place.data();
   const std::size_t owner = static_cast<std::size_t>(s.balls.n_blocks) + c;
   const int end = s.references.start[owner + 1], last = s.references.start.back() - 1;
+  // The second body of a row feels the opposite force. A table, because a branch would be guessed wrong half of the time.
+  constexpr double sign_of_side[2] = {1.0, -1.0};
   Load load;
   for (int k = s.references.start[owner]; k < end; ++k) {
     // Beyond the end lie the references of the next clump.
     __builtin_prefetch(states + rows[std::min(k + k_references_ahead, last)]);
     const auto row = static_cast<std::size_t>(rows[k]);
     const ContactState& contact = states[row];
-    const bool second = (places[k] & ContactReferences::k_second) != 0;
-    const double sign = second ? -1.0 : 1.0;
-    const double lever = (second ? radius_j[row] : radius_i[row]) - 0.5 * contact.overlap;
-    const Four n = load_four(&contact.normal.x);
-    Four shear = load_four(&contact.shear.x);
+    const double* const ball = balls + (places[k] & ~ContactReferences::k_second);
+    const double sign = sign_of_side[(places[k] & ContactReferences::k_second) != 0 ? 1 : 0];
+    const double lever = ball[k_pebble_radius_at] - 0.5 * contact.overlap;
+    const Four n = dem::load<Four>(&contact.normal.x);
+    Four shear = dem::load<Four>(&contact.shear.x);
     if constexpr (dashpots) shear += Four{t.damping_x[row], t.damping_y[row], t.damping_z[row], 0.0};
     const Four force = (shear - n * contact.normal_force) * sign;
-    const double* ball = x + (places[k] & ~ContactReferences::k_second);
-    const Four arm = Four{ball[0], ball[k_lanes], ball[2 * k_lanes], 0.0} - centroid + n * (sign * lever);
+    const Four arm = dem::load<Four>(ball) - centroid + n * (sign * lever);
     load.force += force;
     load.torque += cross(arm, force);
   }
   return load;
 }
 
-/// Places the pebbles; their velocity is their displacement over the step, which the contact law relies on.
+DEM_INLINE Four in_register(const Vec3& v, double fourth = 0.0) { return Four{v.x, v.y, v.z, fourth}; }
+
+/// Places the pebbles; their velocity is their displacement over the step, which the contact law relies on. Three numbers
+/// of a record are written by a register of four, so the next ones follow at once.
 double carry_pebbles(Simulation& s, const Clump& body, double inverse_dt) {
   const Frame frame = frame_of(body.orientation);
+  const Four e1 = in_register(frame.e1), e2 = in_register(frame.e2), e3 = in_register(frame.e3);
+  const Four centroid = in_register(body.position);
+  const auto first = static_cast<std::size_t>(body.first_pebble);
+  double* record = s.balls.state.data() + s.balls.pebble_index(body.first_pebble);
   double top_speed2 = 0.0;
-  for (int p = body.first_pebble; p < body.first_pebble + body.n_pebbles; ++p) {
-    const int i = s.balls.pebble_index(p);
-    const Vec3 to = body.position + to_space(frame, s.clumps.pebble_offset[static_cast<std::size_t>(p)]);
-    const Vec3 v = (to - s.balls.position(i)) * inverse_dt;
-    s.balls.set_position(i, to);
-    s.balls.set_velocity(i, v);
-    s.balls.set_spin(i, body.spin);
-    top_speed2 = std::max(top_speed2, dot(v, v));
+  for (std::size_t p = first; p < first + static_cast<std::size_t>(body.n_pebbles); ++p, record += k_pebble_record) {
+    const Vec3& offset = s.clumps.pebble_offset[p];
+    const Four spin = in_register(body.spin, record[k_pebble_radius_at]);
+    const Four to = centroid + (e1 * offset.x + e2 * offset.y + e3 * offset.z);
+    const Four v = (to - dem::load<Four>(record)) * inverse_dt;
+    dem::store(record, to);
+    dem::store(record + 3, v);
+    dem::store(record + 6, spin);
+    top_speed2 = std::max(top_speed2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
   return top_speed2;
 }
@@ -166,4 +173,4 @@ void advance_clumps(Simulation& s) {
   }
 }
 
-}  // namespace dem
+}  // namespace dem::DEM_TARGET
