@@ -22,6 +22,7 @@
 #include "dem4grm/io/output_folder.hpp"
 #include "dem4grm/lab/dense_assembly.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
+#include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/version.hpp"
 #include "dem4grm/walls/shear_box.hpp"
@@ -70,7 +71,9 @@ inline Loaded stored_specimen(const std::filesystem::path& folder) {
   Loaded out{std::get<dem::DirectShearCase>(loaded.test), {}};
   out.specimen = dem::load_specimen(dem::specimen_order(out.test), checkpoint.state);
   dem::Simulation& s = *out.specimen.simulation;
-  s.servo.speed_cap = std::max(out.test.servo.shear_speed_cap, out.test.shear.velocity);
+  const double velocity = dem::expected_shear_velocity(out.test);
+  s.servo.speed_cap = dem::plate_speed_cap(out.test, velocity);
+  out.test.shear.velocity = velocity;
   s.invalidate_candidates();  // the list of a calm specimen, not of the last rebuild of the preparation
   return out;
 }
@@ -78,6 +81,7 @@ inline Loaded stored_specimen(const std::filesystem::path& folder) {
 /// The grains of a case as a dense assembly, frozen.
 inline Loaded assembly_of(const dem::DirectShearCase& test) {
   Loaded out{test, {}};
+  out.test.shear.velocity = dem::expected_shear_velocity(test);
   const dem::SpecimenOrder order = dem::specimen_order(out.test);
   out.specimen.grains =
       dem::draw_grains(order.specimen, order.box, order.materials.rubber.density, order.solid_density, order.seed);
@@ -95,9 +99,9 @@ inline Loaded specimen_of(const std::filesystem::path& source) {
              : assembly_of(std::get<dem::DirectShearCase>(dem::load_case(source).test));
 }
 
-/// The walls as they move in the shear stage.
+/// The walls as they move in the shear stage; the test is one whose velocity was chosen when it was loaded.
 inline void drive_walls(const dem::DirectShearCase& test, dem::Simulation& s) {
-  dem::ShearBox::set_velocities(s.walls, test.shear.moving_half, test.shear.velocity,
+  dem::ShearBox::set_velocities(s.walls, test.shear.moving_half, test.shear.velocity.value(),
                                 s.walls[dem::ShearBox::k_top_plate].velocity.z);
 }
 

@@ -45,6 +45,10 @@ std::string shear_lines(const JsonObject& s) {
   const double inertial = n("inertial_number_max");
   text += line("inertial number",
                fmt::format("{:.2e} at most{}", inertial, inertial > 1e-3 ? ": too fast to be quasi-static" : ""));
+  const double target = n("inertial_number_target");
+  text += line("shear velocity",
+               fmt::format("{:g} mm/s{}", n("shear_velocity_mm_per_s"),
+                           target > 0.0 ? fmt::format(", chosen for an inertial number of {:g}", target) : ""));
   text += line("grains", fmt::format("{:.0f} clumps, {:.0f} rubber grains; lost: {:.0f}", n("clumps"),
                                      n("rubber_grains"), n("lost_grains")));
   return text;

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/io/case_facts.hpp"
 #include "dem4grm/io/run_forecast.hpp"
+#include "dem4grm/laws/inertial_number.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -49,6 +51,8 @@ std::string facts_text(const CaseFacts& f, std::size_t warnings) {
     line("void ratio", fmt::format("{:.3f} of the random fill, {:.3f} expected under load", f.generation_void_ratio,
                                    f.expected_void_ratio));
     line("mean grain", fmt::format("{:.2f} mm, {:.0f} kg/m3", f.mean_size * 1e3, f.mean_density));
+    line("shear velocity", fmt::format("{}{}", format_quantity(f.shear_velocity, Dimension::speed),
+                                       f.is_velocity_chosen ? ", chosen for the nominal height" : ""));
     line("inertial number", fmt::format("{:.2e}, {}", f.inertial_number, verdict(f.inertial_number)));
   }
   line("memory", fmt::format("about {:.0f} MB", f.memory / 1e6));

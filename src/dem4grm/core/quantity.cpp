@@ -288,6 +288,10 @@ std::string format_decimal(double value, int power_of_ten) {
   return fmt::format("{}{}{}.{}", sign, first, fraction.substr(0, whole), fraction.substr(whole));
 }
 
+double scaled_decimal(double value, int power_of_ten) {
+  return parse_decimal(format_decimal(value, power_of_ten)).value_or(0.0);
+}
+
 ParsedQuantity parse_quantity(std::string_view text, Dimension dimension) {
   text = trimmed(text);
   const DecimalParts parts = split_decimal(text);

@@ -49,4 +49,7 @@ std::optional<double> parse_decimal(std::string_view text, int power_of_ten = 0)
 /// The value must be finite.
 std::string format_decimal(double value, int power_of_ten = 0);
 
+/// The number that format_decimal writes: of 0.00268 and -3 it is 2.68, which a product with 1000 may miss by a last bit.
+double scaled_decimal(double value, int power_of_ten);
+
 }  // namespace dem

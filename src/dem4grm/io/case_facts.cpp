@@ -6,10 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/io/output_folder.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/grain_compression.hpp"
+#include "dem4grm/lab/shear_velocity.hpp"
+#include "dem4grm/laws/inertial_number.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/specimen/void_ratio_defaults.hpp"
 
@@ -40,7 +43,6 @@ Scene limiting_grains(Scene scene, const GrainList& grains) {
 
 void describe_grains(const DirectShearCase& test, const GrainList& grains, CaseFacts& facts) {
   int pebbles = 0;
-  double size_times_volume = 0.0;
   for (const ClumpTemplate& shape : grains.shapes) {
     facts.shapes.push_back({shape.name, static_cast<int>(shape.pebbles.size()), 0, 0.0});
   }
@@ -48,23 +50,21 @@ void describe_grains(const DirectShearCase& test, const GrainList& grains, CaseF
     const ClumpTemplate& shape = grains.shapes[static_cast<std::size_t>(grain.shape)];
     const double d = grain.sieve_size;
     pebbles += static_cast<int>(shape.pebbles.size());
-    size_times_volume += shape.volume * d * d * d * d;
     ShapeFacts& of_shape = facts.shapes[static_cast<std::size_t>(grain.shape)];
     ++of_shape.grains;
     of_shape.share += shape.volume * d * d * d / grains.gravel_volume;
-  }
-  const double total = grains.solid_volume();
-  if (grains.rubber_count > 0) {
-    size_times_volume += grains.rubber_volume * grains.rubber_mean_size;
   }
   facts.clumps = static_cast<int>(grains.gravel.size());
   facts.rubber_grains = grains.rubber_count;
   facts.balls = pebbles + grains.rubber_count * k_grain_balls;
   facts.bonds = grains.rubber_count * k_grain_bonds;
-  facts.rubber_content = grains.rubber_content();
-  facts.mean_size = size_times_volume / total;
-  facts.mean_density =
-      (grains.gravel_volume * test.gravel.density + grains.rubber_volume * test.rubber_solid_density) / total;
+  const SpecimenReport expected = expected_specimen(test, grains);
+  facts.rubber_content = expected.rubber_content;
+  facts.mean_size = expected.mean_size;
+  facts.mean_density = expected.mean_density;
+  facts.shear_velocity = shear_velocity(test.shear, expected);
+  facts.is_velocity_chosen = !test.shear.velocity;
+  facts.inertial_number = inertial_number_at(facts.shear_velocity, expected, test.shear.normal_stress);
 }
 
 CaseFacts facts_of(const DirectShearCase& test) {
@@ -77,10 +77,8 @@ CaseFacts facts_of(const DirectShearCase& test) {
       choose_time_step(Simulation(limiting_grains(materials_of(test), grains)), test.shear.normal_stress);
   facts.time_step = limit.seconds;
   facts.time_step_limited_by = limit.limited_by;
-  facts.steps = std::llround(test.shear.displacement / test.shear.velocity / limit.seconds);
+  facts.steps = std::llround(test.shear.displacement / facts.shear_velocity / limit.seconds);
   facts.rows = static_cast<int>(std::ceil(test.shear.displacement / test.recording.interval - 1e-9));
-  facts.inertial_number = test.shear.velocity / test.box.height * facts.mean_size *
-                          std::sqrt(facts.mean_density / test.shear.normal_stress);
   const double vrc = test.specimen.rubber_content;
   facts.expected_void_ratio = test.specimen.expected_void_ratio.value_or(expected_void_ratio(vrc));
   facts.generation_void_ratio = test.specimen.generation_void_ratio.value_or(laboratory_void_ratio(vrc));
@@ -136,6 +134,8 @@ JsonObject facts_as_json(const CaseFacts& f) {
                                      {"generation_void_ratio", f.generation_void_ratio},
                                      {"mean_size_mm", f.mean_size * 1e3},
                                      {"mean_density_kg_per_m3", f.mean_density},
+                                     {"shear_velocity_mm_per_s", scaled_decimal(f.shear_velocity, -3)},
+                                     {"is_velocity_chosen", f.is_velocity_chosen},
                                      {"inertial_number", f.inertial_number},
                                      {"is_quasi_static", f.inertial_number < k_quasi_static}}) {
     out.push_back(std::move(field));

@@ -31,17 +31,14 @@ struct CaseFacts {
 
   std::vector<ShapeFacts> shapes;  ///< of the gravel
   double rubber_content = 0.0;     ///< that whole grains give
+  double shear_velocity = 0.0;     ///< m/s, as given, or chosen for the nominal height
   double inertial_number = 0.0;    ///< of the shear stage
-  double mean_size = 0.0;          ///< m, volume-weighted
-  double mean_density = 0.0;       ///< kg/m3, volume-weighted, of the solids
+  bool is_velocity_chosen = false;
+  double mean_size = 0.0;     ///< m, volume-weighted
+  double mean_density = 0.0;  ///< kg/m3, volume-weighted, of the solids
   double expected_void_ratio = 0.0;
   double generation_void_ratio = 0.0;
 };
-
-/// Limits of the inertial number of shear: below the first a test counts as quasi-static beyond doubt, above the second
-/// as too fast.
-inline constexpr double k_quasi_static = 1e-4;
-inline constexpr double k_too_fast = 1e-3;
 
 /// Cheap: draws the grains and finds their stability limits, fills no box. Throws InputError for grains that cannot be
 /// drawn.

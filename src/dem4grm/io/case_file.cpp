@@ -54,6 +54,7 @@ TestCase read_case(const TomlNode& root, const std::filesystem::path& folder, Ca
   if (!specimen.preparation_friction && !specimen.relative_density) {
     specimen.relative_density = k_default_relative_density;
   }
+  if (!test.shear.velocity && !test.shear.inertial_number) test.shear.inertial_number = k_default_inertial_number;
   return test;
 }
 

@@ -11,6 +11,7 @@
 
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/io/grading_file.hpp"
+#include "dem4grm/laws/inertial_number.hpp"
 
 namespace dem {
 namespace {
@@ -220,11 +221,25 @@ void check_shear(const DirectShearCase& test, Rules& rules) {
                                  stress_text(shear.normal_stress)),
                      "published: 30, 60 and 100 kPa");
   }
-  if (given.are_good({"shear.velocity"}) && shear.velocity > 0.050) {
+  if (!given.are_good({"shear.velocity"})) return;
+  if (shear.velocity && *shear.velocity > 0.050) {
     problems.warning(
         given.place_of({"shear.velocity"}),
-        fmt::format("shear.velocity = {} is above 50 mm/s: hardly quasi-static", speed_text(shear.velocity)),
+        fmt::format("shear.velocity = {} is above 50 mm/s: hardly quasi-static", speed_text(*shear.velocity)),
         "published: 2 mm/s");
+  }
+  if (!shear.inertial_number || !given.are_good({"shear.inertial_number"})) return;
+  const Place place = given.place_of({"shear.inertial_number"});
+  if (shear.velocity) {
+    problems.warning(
+        place,
+        fmt::format("shear.inertial_number has no effect beside shear.velocity = {}", speed_text(*shear.velocity)),
+        "velocity = \"quasi-static\" chooses the velocity for it");
+  } else if (*shear.inertial_number > k_quasi_static) {
+    problems.warning(place,
+                     fmt::format("shear.inertial_number = {} is above {}: not quasi-static beyond doubt",
+                                 format_decimal(*shear.inertial_number), format_decimal(k_quasi_static)),
+                     "published: below 1e-4");
   }
 }
 

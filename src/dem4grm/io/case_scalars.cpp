@@ -3,6 +3,7 @@
 #include "dem4grm/io/case_scalars.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -75,6 +76,14 @@ std::optional<double> ScalarReader::quantity(const TomlNode& node) {
   const std::optional<double> value = key_.has_unit() ? number_with_unit(node) : plain_number(node);
   if (!value || is_in_range(*value, node)) return value;
   return std::nullopt;
+}
+
+bool ScalarReader::is_word(const TomlNode& node, std::string_view word) {
+  if (node.text == word) return true;
+  const bool is_near = nearest_name(node.text, std::array{word}).has_value();
+  return fail(
+      node, fmt::format("is neither a {} with its unit, as \"1 {}\", nor \"{}\"{}", dimension_name(key_.dimension),
+                        usual_unit(key_.dimension), word, is_near ? fmt::format("; did you mean \"{}\"?", word) : ""));
 }
 
 std::optional<double> ScalarReader::number_with_unit(const TomlNode& node) {

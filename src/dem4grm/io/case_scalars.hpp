@@ -20,6 +20,8 @@ class ScalarReader {
 
   /// A number, or text with a unit where the key has a dimension, inside the range of the key. SI.
   std::optional<double> quantity(const TomlNode& node);
+  /// True for the word; any other text is reported, with both forms that the key takes.
+  bool is_word(const TomlNode& node, std::string_view word);
   /// A whole number inside the range of the key; 2e6 counts as one.
   std::optional<int> integer(const TomlNode& node);
   /// A whole number from 0 on.

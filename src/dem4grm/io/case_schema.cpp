@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "dem4grm/laws/inertial_number.hpp"
+
 namespace dem {
 namespace {
 
@@ -182,7 +184,8 @@ void add_servo_and_equilibrium(Keys& keys, ServoSettings& servo, EquilibriumSett
     {.section = "servo", .name = "gain", .slot = &servo.gain, .range = {0.001, 1},
      .help = "share of the force error that the plate removes per step"},
     {.section = "servo", .name = "shear_speed_cap", .slot = &servo.shear_speed_cap, .dimension = k_speed,
-     .range = {1e-6, 1}, .help = "largest speed of the plate in shear, unless the shear velocity is larger"},
+     .range = {1e-6, 1},
+     .help = "largest speed of the plate in shear, unless the shear velocity, or five times a chosen one, is larger"},
     {.section = "equilibrium", .name = "force_ratio", .slot = &equilibrium.force_ratio, .range = {1e-9, 0.1},
      .help = "mean net force on a body over mean contact force"},
     {.section = "equilibrium", .name = "branch_force_ratio", .slot = &equilibrium.branch_force_ratio,
@@ -203,8 +206,13 @@ void add_shear_and_recording(Keys& keys, ShearSettings& shear, RecordingSettings
     {.section = "shear", .name = "normal_stress", .slot = &shear.normal_stress, .dimension = k_stress,
      .range = {100, 100e6}, .help = "normal stress on the plate", .published = "30, 60 and 100 kPa",
      .is_required = true, .is_in_template = true},
-    {.section = "shear", .name = "velocity", .slot = &shear.velocity, .dimension = k_speed, .range = {1e-6, 1},
-     .help = "speed of the halves against each other", .published = "2 mm/s", .is_in_template = true},
+    {.section = "shear", .name = "velocity", .slot = QuantityOrWord{&shear.velocity, "quasi-static"},
+     .dimension = k_speed, .range = {1e-6, 1},
+     .help = "speed of the halves against each other, or \"quasi-static\": chosen for inertial_number",
+     .published = "2 mm/s", .is_in_template = true},
+    {.section = "shear", .name = "inertial_number", .slot = &shear.inertial_number, .range = {1e-6, k_too_fast},
+     .help = "inertial number at the start of a test with velocity = \"quasi-static\"", .published = "below 1e-4",
+     .default_words = "5e-5 with velocity = \"quasi-static\""},
     {.section = "shear", .name = "displacement", .slot = &shear.displacement, .dimension = k_length,
      .range = {1e-5, 1}, .help = "shear displacement at the end", .published = "14 mm", .is_in_template = true},
     {.section = "shear", .name = "moving_half", .slot = &shear.moving_half, .help = "which half of the box moves",

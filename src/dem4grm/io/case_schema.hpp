@@ -44,11 +44,17 @@ struct ShapeNamesSlot {
   const SpecimenSettings* specimen = nullptr;
 };
 
+/// A quantity, or the one word that stands for no value.
+struct QuantityOrWord {
+  std::optional<double>* value = nullptr;
+  std::string_view word;
+};
+
 /// Where the value of a key lives inside a case; the alternative also says what kind of value it is. The choices of an
 /// enumeration are named by Key::choices in the order of its enumerators.
 using Slot = std::variant<TestName, double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*, bool*,
                           std::string*, std::vector<double>*, GradingSlot, ClumpTemplatesSlot, ShapeNamesSlot,
-                          BondForm*, TimeStepRule*, MovingHalf*>;
+                          QuantityOrWord, BondForm*, TimeStepRule*, MovingHalf*>;
 
 struct Key {
   std::string_view section{};  ///< "rubber.bond"; empty for the keys before the first section

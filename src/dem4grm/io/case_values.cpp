@@ -31,6 +31,12 @@ class ValueReader {
   bool operator()(int* slot) { return store(slot, scalar_.integer(node_)); }
   bool operator()(std::optional<int>* slot) { return store(slot, scalar_.integer(node_)); }
 
+  bool operator()(const QuantityOrWord& slot) {
+    if (!begins_with_letter()) return store(slot.value, scalar_.quantity(node_));
+    slot.value->reset();
+    return scalar_.is_word(node_, slot.word);
+  }
+
   bool operator()(std::uint64_t* slot) { return store(slot, scalar_.natural(node_)); }
 
   bool operator()(bool* slot) {
@@ -113,6 +119,14 @@ class ValueReader {
   bool store(Target* slot, const std::optional<Value>& value) {
     if (value) *slot = *value;
     return value.has_value();
+  }
+
+  /// No number does; "inf" and "nan" are refused in the same words as any other.
+  bool begins_with_letter() const {
+    const std::size_t first = node_.text.find_first_not_of(" \t");
+    if (node_.kind != TomlKind::text || first == std::string::npos) return false;
+    const char c = node_.text[first];
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
   }
 
   bool is_list() const { return node_.kind == TomlKind::array && node_.items.size() <= k_most_items; }

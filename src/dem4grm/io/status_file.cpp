@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/io/folder_lock.hpp"
 #include "dem4grm/io/json_text.hpp"
 #include "dem4grm/io/output_file.hpp"
@@ -58,6 +59,7 @@ void StatusFile::write() {
                     {"normal_stress_kPa", progress_.normal_stress / 1e3},
                     {"void_ratio", progress_.void_ratio},
                     {"inertial_number", progress_.inertial_number},
+                    {"shear_velocity_mm_per_s", scaled_decimal(progress_.shear_velocity, -3)},
                     {"unbalanced_ratio", progress_.unbalanced_ratio},
                     {"steps_per_second", steps_per_second_}};
   const bool is_known = is_going_on && forecast_.seconds.has_value();

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/version.hpp"
@@ -103,7 +104,9 @@ JsonObject curve_of(const DirectShearCase& test, const DirectShearResult& r) {
           {"inertial_number_max", r.inertial_number_max},
           {"unbalanced_ratio_mean", r.unbalanced_ratio_mean},
           {"shear_displacement_mm", r.displacement * 1e3},
-          {"shear_velocity_mm_per_s", test.shear.velocity * 1e3},
+          {"shear_velocity_mm_per_s", scaled_decimal(r.shear_velocity, -3)},
+          {"shear_velocity_rule", test.shear.velocity ? "given" : "quasi-static"},
+          {"inertial_number_target", test.shear.velocity ? JsonValue() : optional_number(test.shear.inertial_number)},
           {"peak_shear_stress_kPa", c.peak_stress / 1e3},
           {"displacement_at_peak_mm", c.displacement_at_peak * 1e3},
           {"residual_shear_stress_kPa", c.residual_stress / 1e3},

@@ -11,6 +11,7 @@
 #include "dem4grm/io/micro_table.hpp"
 #include "dem4grm/io/output_file.hpp"
 #include "dem4grm/io/specimen_file.hpp"
+#include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -26,7 +27,7 @@ ResultsOrigin origin_of(const LoadedCase& loaded) {
 
 RemainingTime remaining_time_of(const TestCase& test, bool is_specimen_only) {
   if (const auto* shear = std::get_if<DirectShearCase>(&test)) {
-    return {"shear", is_specimen_only ? 0.0 : shear->shear.displacement / shear->shear.velocity};
+    return {"shear", is_specimen_only ? 0.0 : shear->shear.displacement / expected_shear_velocity(*shear)};
   }
   return {"compression", 0.0};
 }

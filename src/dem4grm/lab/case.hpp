@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,14 @@
 
 namespace dem {
 
+/// Of a test whose velocity is to be chosen: half the published limit.
+inline constexpr double k_default_inertial_number = 5e-5;
+
 struct ShearSettings {
-  double normal_stress = 0.0;   ///< Pa
-  double velocity = 0.002;      ///< m/s, of the halves against each other
-  double displacement = 0.014;  ///< m
+  double normal_stress = 0.0;               ///< Pa
+  std::optional<double> velocity = 0.002;   ///< m/s, of the halves against each other; nothing: by the inertial number
+  std::optional<double> inertial_number{};  ///< that a velocity is chosen for; nothing: k_default_inertial_number
+  double displacement = 0.014;              ///< m
   MovingHalf moving_half = MovingHalf::lower;
 };
 

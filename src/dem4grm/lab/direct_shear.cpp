@@ -9,6 +9,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/lab/shear_stage.hpp"
+#include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -73,6 +74,7 @@ int count_broken_bonds(const Simulation& s) {
 void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShearResult& out) {
   const Simulation& s = *specimen.simulation;
   const double target = test.shear.normal_stress;
+  out.shear_velocity = shear_velocity(test.shear, specimen.report);
   double difference = 0.0;
   for (const ShearRow& r : out.rows) {
     out.normal_stress_mean += r.normal_stress;

@@ -20,6 +20,7 @@ struct DirectShearResult {
   std::vector<ShearRow> rows;
   std::vector<MicroRow> micro_rows;
   double displacement = 0.0;
+  double shear_velocity = 0.0;             ///< m/s, as given or chosen
   double normal_stress_mean = 0.0;         ///< Pa, over the shear stage
   double normal_stress_max_error = 0.0;    ///< largest relative error of a row
   double normal_stress_worst_step = 0.0;   ///< largest relative error of a single step

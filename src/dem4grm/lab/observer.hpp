@@ -23,6 +23,7 @@ struct Progress {
   double normal_stress = 0.0;  ///< Pa
   double void_ratio = 0.0;
   double inertial_number = 0.0;
+  double shear_velocity = 0.0;  ///< m/s, prescribed
   double unbalanced_ratio = 0.0;
   std::int64_t steps = 0;           ///< of this stage
   double time_step = 0.0;           ///< s

@@ -8,10 +8,12 @@
 #include <string>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/engine/simulation_state.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/record_state.hpp"
+#include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -32,8 +34,9 @@ ShearStage::ShearStage(const DirectShearCase& test, Specimen& specimen, Homogene
       homogeneity_(homogeneity),
       observer_(observer),
       frames_(state_displacements(test)),
-      micro_(micro_displacements(test)) {
-  s_.servo.speed_cap = std::max(test.servo.shear_speed_cap, test.shear.velocity);
+      micro_(micro_displacements(test)),
+      velocity_(shear_velocity(test.shear, specimen.report)) {
+  s_.servo.speed_cap = plate_speed_cap(test, velocity_);
   start_height_ = plate_height();
   start_energy_ = s_.energy();
 }
@@ -49,6 +52,7 @@ void ShearStage::run(StateArchive* from) {
     observer_.resumed({rows_, written_frames_, micro_rows_, start_energy_});
   }
   if (!observer_.wants_shear()) return;
+  tell_velocity();
   while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
     advance();
     const bool is_watched = ++shear_steps_ % k_watch_interval == 0;
@@ -62,6 +66,14 @@ void ShearStage::run(StateArchive* from) {
   }
 }
 
+void ShearStage::tell_velocity() {
+  if (test_.shear.velocity) return;
+  observer_.note(fmt::format("shears with {}, chosen for an inertial number of {:g}; the plate with at most {}",
+                             format_quantity(velocity_, Dimension::speed),
+                             test_.shear.inertial_number.value_or(k_default_inertial_number),
+                             format_quantity(s_.servo.speed_cap, Dimension::speed)));
+}
+
 double ShearStage::plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
 
 double ShearStage::next_row_at() const {
@@ -73,7 +85,7 @@ bool ShearStage::has_reached(const std::vector<double>& at, std::size_t number) 
 }
 
 void ShearStage::advance() {
-  const double v = test_.shear.velocity;
+  const double v = velocity_;
   const double ramp = std::min(1.0, std::max(0.02, std::sqrt(displacement_ / k_start_ramp)));
   ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v * ramp, s_.walls[ShearBox::k_top_plate].velocity.z);
   s_.step();
@@ -105,9 +117,7 @@ void ShearStage::finish_row() {
   row.normal_stress_worst = sums_.worst_normal;
   row.vertical_displacement = plate_height() - start_height_;
   row.void_ratio = plate_void_ratio(s_, specimen_.load);
-  // Inertial number of Chew et al. (2022): rate D sqrt(rho / sigma_n), rate = shear velocity / initial height.
-  row.inertial_number = test_.shear.velocity / start_height_ * specimen_.report.mean_size *
-                        std::sqrt(specimen_.report.mean_density / row.normal_stress);
+  row.inertial_number = inertial_number_at(velocity_, specimen_.report, row.normal_stress);
   row.unbalanced_ratio = balance(s_).ratio();
   row.time_step = s_.dt;
   row.energy = since_start(s_.energy());
@@ -135,6 +145,7 @@ void ShearStage::report() {
   p.normal_stress = r.normal_stress;
   p.void_ratio = r.void_ratio;
   p.inertial_number = r.inertial_number;
+  p.shear_velocity = velocity_;
   p.unbalanced_ratio = r.unbalanced_ratio;
   p.steps = shear_steps_;
   p.time_step = s_.dt;

@@ -40,6 +40,7 @@ class ShearStage {
   [[nodiscard]] EnergyReport since_start(EnergyReport e) const;
   void report();
   void watch();
+  void tell_velocity();
   void write_frame();
   void record_micro();
   StateArchive specimen_state();
@@ -52,6 +53,7 @@ class ShearStage {
   Homogeneity& homogeneity_;
   LabObserver& observer_;
   std::vector<double> frames_, micro_;  ///< m, where states and micro-mechanics are recorded
+  double velocity_ = 0.0;               ///< m/s, of the halves against each other
   double displacement_ = 0.0, start_height_ = 0.0;
   EnergyReport start_energy_;
   std::size_t next_frame_ = 0;

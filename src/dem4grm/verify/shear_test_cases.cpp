@@ -83,7 +83,7 @@ void check_record(Findings& f, const DirectShearCase& test, const DirectShearRes
                  std::abs(row.void_ratio -
                           ((1 + r.specimen.void_ratio_before_shear) * (1 + row.vertical_displacement / height) - 1)));
     inertial =
-        std::max(inertial, std::abs(row.inertial_number / (test.shear.velocity / height * r.specimen.mean_size *
+        std::max(inertial, std::abs(row.inertial_number / (r.shear_velocity / height * r.specimen.mean_size *
                                                            std::sqrt(r.specimen.mean_density / row.normal_stress)) -
                                     1));
   }

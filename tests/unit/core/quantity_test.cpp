@@ -114,6 +114,8 @@ TEST(Quantity, DecimalShiftIsExact) {
   EXPECT_EQ(format_decimal(1234567.0), "1234567");
   EXPECT_EQ(format_decimal(-0.00012), "-0.00012");
   EXPECT_EQ(format_decimal(1e-9), "1e-9");
+  for (int k = 100; k < 1000; ++k) EXPECT_EQ(scaled_decimal(k / 1e5, -3), k / 1e2);
+  EXPECT_EQ(scaled_decimal(0.0, -3), 0.0);
   EXPECT_FALSE(parse_decimal("5.6 ").has_value());
   EXPECT_FALSE(parse_decimal("0x10").has_value());
   EXPECT_FALSE(parse_decimal("").has_value());

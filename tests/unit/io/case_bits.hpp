@@ -50,6 +50,7 @@ struct SlotBits {
     return text;
   }
   std::string operator()(const ShapeNamesSlot& slot) const { return bits_of(*slot.names); }
+  std::string operator()(const QuantityOrWord& slot) const { return bits_of(*slot.value); }
   template <class Value>
   std::string operator()(const Value* slot) const {
     return bits_of(*slot);

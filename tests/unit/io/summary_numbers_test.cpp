@@ -65,6 +65,9 @@ TEST(Summary, HasAllPromisedNames) {
                            "inertial_number_max",
                            "unbalanced_ratio_mean",
                            "shear_displacement_mm",
+                           "shear_velocity_mm_per_s",
+                           "shear_velocity_rule",
+                           "inertial_number_target",
                            "peak_shear_stress_kPa",
                            "displacement_at_peak_mm",
                            "residual_shear_stress_kPa",
@@ -93,6 +96,21 @@ TEST(Summary, ConvertsUnits) {
   ASSERT_EQ(hashes.size(), 1U);
   EXPECT_EQ(text_in(std::get<JsonObject>(hashes[0].data), "state_hash"), "h");
   EXPECT_EQ(std::get<JsonList>(find_field(summary, "warnings")->data).size(), 1U);
+}
+
+TEST(Summary, SaysHowTheVelocityWasChosen) {
+  DirectShearCase test;
+  DirectShearResult result = sample_result();
+  result.shear_velocity = 0.00268;
+  JsonObject summary = direct_shear_summary(test, result, {});
+  EXPECT_EQ(number_in(summary, "shear_velocity_mm_per_s"), 2.68);
+  EXPECT_EQ(text_in(summary, "shear_velocity_rule"), "given");
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(find_field(summary, "inertial_number_target")->data));
+  test.shear.velocity.reset();
+  test.shear.inertial_number = 5e-5;
+  summary = direct_shear_summary(test, result, {});
+  EXPECT_EQ(text_in(summary, "shear_velocity_rule"), "quasi-static");
+  EXPECT_EQ(number_in(summary, "inertial_number_target"), 5e-5);
 }
 
 TEST(Summary, NamesAreUnique) {
