@@ -94,7 +94,7 @@ check_style() {
 
 configure() {
   local log=$logs/configure-$1.log
-  cmake --preset "$1" -B "$2" "${@:3}" >"$log" 2>&1 || { cat "$log"; return 1; }
+  cmake --preset "$1" -B "$2" -DDEM4GRM_UNITY=ON "${@:3}" >"$log" 2>&1 || { cat "$log"; return 1; }
 }
 
 build() { cmake --build "$1" --parallel "$n_jobs" "${@:2}"; }
