@@ -32,7 +32,7 @@ tools/install_dependencies.sh build
 finish
 
 begin "configure"
-cmake --preset release -B "$build" -DDEM4GRM_BUILD_TESTS=OFF
+cmake --preset release -B "$build" -DDEM4GRM_BUILD_TESTS=OFF -DDEM4GRM_UNITY=ON
 finish
 
 begin "build"

@@ -94,7 +94,7 @@ check_style() {
 
 configure() {
   local log=$logs/configure-$1.log
-  cmake --preset "$1" -B "$2" "${@:3}" >"$log" 2>&1 || { cat "$log"; return 1; }
+  cmake --preset "$1" -B "$2" -DDEM4GRM_UNITY=ON "${@:3}" >"$log" 2>&1 || { cat "$log"; return 1; }
 }
 
 build() { cmake --build "$1" --parallel "$n_jobs" "${@:2}"; }
@@ -164,33 +164,7 @@ thread_tests() {
     --no-tests=ignore | tee "$logs/tsan.ctest"
 }
 
-# A file is analysed again when it, any header or the list of checks is newer than its stamp. The verification cases are
-# left out, as tests are: no run of a user's case goes through them, and they take two minutes of processor time.
-analyse_one() {
-  local file=$1 stamp=build/tidy/$1.passed text
-  local options=(--quiet --extra-arg=-Wno-error --extra-arg=-Wno-unknown-warning-option)
-  if text=$(clang-tidy-14 -p "$2" "${options[@]}" "$file" 2>&1); then
-    mkdir -p "$(dirname "$stamp")" && touch "$stamp"
-  else
-    echo "$text" | grep -v ' warnings\{0,1\} generated' || true
-    return 1
-  fi
-}
-export -f analyse_one
-
-static_analysis() {
-  local file newest files=()
-  newest=$(find src apps .clang-tidy \( -name '*.hpp' -o -name .clang-tidy \) -printf '%T@ %p\n' | sort -n | tail -1)
-  newest=${newest#* }
-  while read -r file; do
-    local stamp=build/tidy/$file.passed
-    [[ "$stamp" -nt "$file" && "$stamp" -nt "$newest" ]] || files+=("$file")
-  done < <(find src apps -name '*.cpp' -not -path 'src/dem4grm/verify/*' | sort)
-  echo "clang-tidy: ${#files[@]} files to analyse"
-  [[ ${#files[@]} -gt 0 ]] || return 0
-  # shellcheck disable=SC2016  # the inner shell expands these
-  printf '%s\0' "${files[@]}" | xargs -0 -n 1 -P "$n_jobs" bash -c 'analyse_one "$2" "$1"' bash "$release"
-}
+static_analysis() { tools/static_analysis.py "$release" --jobs "$n_jobs"; }
 
 # ---- the order -----------------------------------------------------------------------------------------------------
 phase "install what is missing" tools/install_dependencies.sh test

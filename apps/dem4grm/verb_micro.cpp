@@ -66,7 +66,7 @@ MicroOptions analysis_options(const MicroVerbOptions& given) {
   return out;
 }
 
-void show(const MicroVerbOptions& given) {
+void show_micro(const MicroVerbOptions& given) {
   const MicroOptions options = analysis_options(given);
   const std::optional<double> at = displacement_of(given.at);
   const std::filesystem::path results = results_of(given.path);
@@ -113,7 +113,7 @@ void add_micro(CLI::App& app) {
       ->type_name("FILE.csv");
   verb->add_flag("--json", options->is_json, "as one JSON object on stdout");
   verb->footer("Example:\n  dem4grm micro runs/quick --at 8mm --bootstrap 200");
-  verb->callback([options] { show(*options); });
+  verb->callback([options] { show_micro(*options); });
 }
 
 }  // namespace dem

@@ -17,7 +17,7 @@ namespace {
 using namespace dem;
 using namespace dem::test;
 
-constexpr double k_radius = 2.5e-3, k_overlap = 20e-6, k_dt = 1e-6;
+constexpr double k_ball_radius = 2.5e-3, k_overlap = 20e-6, k_dt = 1e-6;
 
 /// A sphere at the origin touched from +z by a second sphere or from below by a wall; the first sphere is led.
 class Led {
@@ -42,12 +42,12 @@ class Led {
     Scene out = model_scene();
     out.contact = contact;
     out.gravel.friction = friction;
-    add_sphere(out, {0, 0, 0}, k_radius);
+    add_sphere(out, {0, 0, 0}, k_ball_radius);
     if (at_wall) {
-      out.wall_list = {make_wall("lid", {-1, -1, k_radius - k_overlap}, {0, 2, 0}, {2, 0, 0})};
+      out.wall_list = {make_wall("lid", {-1, -1, k_ball_radius - k_overlap}, {0, 2, 0}, {2, 0, 0})};
       out.wall_list[0].friction = friction;
     } else {
-      add_sphere(out, {0, 0, 2 * k_radius - k_overlap}, k_radius);
+      add_sphere(out, {0, 0, 2 * k_ball_radius - k_overlap}, k_ball_radius);
     }
     return out;
   }
@@ -62,7 +62,7 @@ class ContactSetting : public ::testing::TestWithParam<bool> {
   [[nodiscard]] double normal_stiffness() const { return GetParam() ? 1.148593e5 : 4.065786e4; }
   [[nodiscard]] double normal_force() const { return GetParam() ? 1.531458 : 0.5421047; }
   [[nodiscard]] double mass() const {
-    return 2710 * 4.0 / 3.0 * k_pi * k_radius * k_radius * k_radius * (GetParam() ? 1.0 : 0.5);
+    return 2710 * 4.0 / 3.0 * k_pi * k_ball_radius * k_ball_radius * k_ball_radius * (GetParam() ? 1.0 : 0.5);
   }
 };
 

@@ -16,7 +16,7 @@ namespace {
 using namespace dem;
 using namespace dem::test;
 
-constexpr double k_radius = 2.5e-3, k_overlap = 20e-6, k_force = 1.531458;
+constexpr double k_sphere_radius = 2.5e-3, k_depth = 20e-6, k_force = 1.531458;
 
 /// One gravel ball among the walls, placed by hand.
 struct Probe {
@@ -28,7 +28,7 @@ struct Probe {
     Scene scene = model_scene();
     scene.gravel.friction = friction;
     scene.wall_list = walls;
-    add_sphere(scene, {0, 0, 1.0}, k_radius);
+    add_sphere(scene, {0, 0, 1.0}, k_sphere_radius);
     return scene;
   }
   /// Net force on the ball after it was moved there in one step.
@@ -79,7 +79,7 @@ TEST_P(Seam, IsNotFeltAtAnyPosition) {
   const auto [flip, friction] = GetParam();
   Probe one(whole_floor(friction)), two(cut_floor(friction, flip));
   // Across the seam and back, through x = 0 exactly, in steps that stay below slip at 0.7 for the first stretch.
-  const Vec3 start{-3e-3, 0, k_radius - k_overlap};
+  const Vec3 start{-3e-3, 0, k_sphere_radius - k_depth};
   one.start_at(start);
   two.start_at(start);
   std::vector<double> path;
@@ -87,7 +87,7 @@ TEST_P(Seam, IsNotFeltAtAnyPosition) {
   for (int k = 300; k >= -300; --k) path.push_back(k * 1e-5 * 0.999);
   for (int k = -20; k <= 20; ++k) path.push_back(k * 1e-7);  // slowly, sticking, through zero
   for (const double x : path) {
-    const Vec3 to{x, 0.3 * x, k_radius - k_overlap};
+    const Vec3 to{x, 0.3 * x, k_sphere_radius - k_depth};
     const Vec3 a = one.force_at(to), b = two.force_at(to);
     ASSERT_LT(norm(a - b), 1e-9 * norm(a))
         << "x = " << x << " whole " << a.x << ' ' << a.z << " cut " << b.x << ' ' << b.z;
@@ -105,7 +105,7 @@ TEST(Seam, WhereFourPiecesMeet) {
   Probe four(walls);
   for (const Vec3& at :
        {Vec3{0, 0, 0}, Vec3{1e-5, 0, 0}, Vec3{0, -1e-5, 0}, Vec3{1e-4, 1e-4, 0}, Vec3{-1e-9, 1e-9, 0}}) {
-    const Vec3 f = four.force_at(at + Vec3{0, 0, k_radius - k_overlap});
+    const Vec3 f = four.force_at(at + Vec3{0, 0, k_sphere_radius - k_depth});
     EXPECT_NEAR(f.z, k_force, 1e-6 * k_force) << at.x << ' ' << at.y;
     EXPECT_NEAR(f.x, 0.0, 1e-9);
     EXPECT_EQ(four.contacts(), 1);
@@ -116,7 +116,7 @@ TEST(ConvexEdge, OfTwoWallsCountsOnceAlongTheLineToTheBall) {
   // A block's top (z = 0, x < 0) and side (x = 0, z < 0): the ball sits off the edge at 30 degrees.
   Probe p({make_wall("top", {-0.1, -0.1, 0}, {0.1, 0, 0}, {0, 0.2, 0}),
            make_wall("side", {0, -0.1, -0.1}, {0, 0.2, 0}, {0, 0, 0.1})});
-  const double a = k_pi / 6, distance = k_radius - k_overlap;
+  const double a = k_pi / 6, distance = k_sphere_radius - k_depth;
   const Vec3 f = p.force_at({distance * std::sin(a), 0.01, distance * std::cos(a)});
   EXPECT_EQ(p.contacts(), 1);
   EXPECT_NEAR(f.x, k_force * std::sin(a), 1e-6);
@@ -130,7 +130,7 @@ TEST(ConvexCorner, OfThreeWallsCountsOnce) {
   Probe p({make_wall("top", {-0.1, -0.1, 0}, {0.1, 0, 0}, {0, 0.1, 0}),
            make_wall("side x", {0, -0.1, -0.1}, {0, 0.1, 0}, {0, 0, 0.1}),
            make_wall("side y", {-0.1, 0, -0.1}, {0, 0, 0.1}, {0.1, 0, 0})});
-  const double c = (k_radius - k_overlap) / std::sqrt(3.0);
+  const double c = (k_sphere_radius - k_depth) / std::sqrt(3.0);
   const Vec3 f = p.force_at({c, c, c});
   EXPECT_EQ(p.contacts(), 1);
   for (const double part : {f.x, f.y, f.z}) EXPECT_NEAR(part, k_force / std::sqrt(3.0), 1e-6);
@@ -139,7 +139,7 @@ TEST(ConvexCorner, OfThreeWallsCountsOnce) {
 TEST(ConcaveCorner, BothFacesPush) {
   Probe p({make_wall("floor", {0, -0.1, 0}, {0.1, 0, 0}, {0, 0.2, 0}),
            make_wall("wall", {0, -0.1, 0}, {0, 0.2, 0}, {0, 0, 0.1})});
-  const Vec3 f = p.force_at({k_radius - k_overlap, 0, k_radius - k_overlap * std::pow(2.0, 2.0 / 3.0)});
+  const Vec3 f = p.force_at({k_sphere_radius - k_depth, 0, k_sphere_radius - k_depth * std::pow(2.0, 2.0 / 3.0)});
   EXPECT_EQ(p.contacts(), 2);
   EXPECT_NEAR(f.x, k_force, 1e-6);
   EXPECT_NEAR(f.z, 2 * k_force, 1e-6);
@@ -147,7 +147,7 @@ TEST(ConcaveCorner, BothFacesPush) {
 
 TEST(ConcaveCorner, ThreeFacesPush) {
   Probe p(closed_box({0.1, 0.1, 0.1}));
-  const double c = k_radius - k_overlap;
+  const double c = k_sphere_radius - k_depth;
   const Vec3 f = p.force_at({c, c, c});
   EXPECT_EQ(p.contacts(), 3);
   for (const double part : {f.x, f.y, f.z}) EXPECT_NEAR(part, k_force, 1e-6);
@@ -155,7 +155,7 @@ TEST(ConcaveCorner, ThreeFacesPush) {
 
 TEST(FreeEdge, PushesAlongTheLineAndCarriesFriction) {
   Probe p(whole_floor(0.5));
-  const double a = 0.7, d = k_radius - k_overlap;
+  const double a = 0.7, d = k_sphere_radius - k_depth;
   const Vec3 at{0.1 + d * std::sin(a), 0, d * std::cos(a)};
   p.start_at(at);
   const Vec3 f = p.force_at(at);
@@ -170,7 +170,7 @@ TEST(MovingWall, DragsAndPushes) {
   // The wall goes sideways under a ball that stands still: friction follows the wall; then it comes closer.
   std::vector<Wall> floor = whole_floor(0.7);
   Probe p(floor);
-  p.start_at({0, 0, k_radius - k_overlap});
+  p.start_at({0, 0, k_sphere_radius - k_depth});
   p.s.balls.set_velocity(0, {});
   p.s.last_wall_velocity[0] = {0.5, 0, 0};
   evaluate_wall_contacts(p.s);
@@ -178,7 +178,7 @@ TEST(MovingWall, DragsAndPushes) {
   p.s.last_wall_velocity[0] = {50.0, 0, 0};
   for (int k = 0; k < 3; ++k) evaluate_wall_contacts(p.s);
   EXPECT_NEAR(-p.s.reactions[0].force.x, 0.7 * k_force, 1e-5);  // slips
-  p.s.walls[0].corner.z += k_overlap;
+  p.s.walls[0].corner.z += k_depth;
   evaluate_wall_contacts(p.s);
   EXPECT_NEAR(-p.s.reactions[0].force.z, k_force * std::pow(2.0, 1.5), 1e-5);
 }
@@ -186,7 +186,7 @@ TEST(MovingWall, DragsAndPushes) {
 TEST(MovingWall, CarriesABallThroughTheEngine) {
   Scene scene = model_scene();
   scene.wall_list = {make_wall("pusher", {0, -1, -1}, {0, 2, 0}, {0, 0, 2})};
-  add_sphere(scene, {k_radius, 0, 0}, k_radius);
+  add_sphere(scene, {k_sphere_radius, 0, 0}, k_sphere_radius);
   Simulation s(scene);
   s.set_time_step(1e-6);
   s.walls[0].velocity = {0.1, 0, 0};
@@ -200,9 +200,9 @@ TEST(MovingWall, CarriesABallThroughTheEngine) {
 TEST(PlateFriction, IsTheSmallerOfGrainAndWall) {
   for (const auto& [grain, wall, expected] : {std::tuple{0.72, 0.70, 0.70}, {0.27, 0.70, 0.27}, {0.72, 0.0, 0.0}}) {
     Probe p(whole_floor(wall), grain);
-    p.start_at({0, 0, k_radius - k_overlap});
-    for (int k = 1; k < 30; ++k) p.force_at({k * 5e-6, 0, k_radius - k_overlap});
-    const Vec3 f = p.force_at({150e-6, 0, k_radius - k_overlap});
+    p.start_at({0, 0, k_sphere_radius - k_depth});
+    for (int k = 1; k < 30; ++k) p.force_at({k * 5e-6, 0, k_sphere_radius - k_depth});
+    const Vec3 f = p.force_at({150e-6, 0, k_sphere_radius - k_depth});
     EXPECT_NEAR(f.x, -expected * k_force, 1e-5);
   }
   // A friction table of a stage caps the grain's side.
@@ -210,9 +210,9 @@ TEST(PlateFriction, IsTheSmallerOfGrainAndWall) {
   FrictionTable table = p.s.material_friction();
   table.against_walls = {0.1, 0.1};
   p.s.set_friction(table);
-  p.start_at({0, 0, k_radius - k_overlap});
-  for (int k = 1; k < 30; ++k) p.force_at({k * 5e-6, 0, k_radius - k_overlap});
-  EXPECT_NEAR(p.force_at({150e-6, 0, k_radius - k_overlap}).x, -0.1 * k_force, 1e-5);
+  p.start_at({0, 0, k_sphere_radius - k_depth});
+  for (int k = 1; k < 30; ++k) p.force_at({k * 5e-6, 0, k_sphere_radius - k_depth});
+  EXPECT_NEAR(p.force_at({150e-6, 0, k_sphere_radius - k_depth}).x, -0.1 * k_force, 1e-5);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Weights {
 };
 
 /// Joint at the contact point of two bodies; j < 0: a wall, which does not give.
-struct Joint {
+struct BodyJoint {
   int i = 0, j = -1;
   Vec3 normal, arm_i, arm_j;  // arms from the centres of the bodies to the point, m
   double weight_normal = 0.0, weight_shear = 0.0;
@@ -62,7 +62,7 @@ class Assembly {
                      for (std::size_t g = begin; g < end; ++g) add_grain(static_cast<int>(g));
                    });
     for (std::size_t b = static_cast<std::size_t>(n_balls_); b < n_bodies(); ++b) force_[b] = {};
-    for (const Joint& joint : contacts_) apply(joint);
+    for (const BodyJoint& joint : contacts_) apply(joint);
     for_each_block(n_bodies(), k_bodies_per_block, [&](std::size_t, std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) y[b] = scaled(b, force_[b]);
     });
@@ -100,7 +100,7 @@ class Assembly {
     const double k = 1.5 * t.hertz[row] * std::sqrt(state.overlap), fourth_root = std::sqrt(std::sqrt(state.overlap));
     const double dashpot_n = t.has_dashpots() ? t.normal_dashpot[row] * fourth_root : 0.0;
     const double dashpot_s = t.has_dashpots() ? t.shear_dashpot[row] * fourth_root : 0.0;
-    Joint joint;
+    BodyJoint joint;
     joint.i = body(first_of(pair));
     joint.normal = state.normal;
     joint.weight_normal = dt_ * dt_ * k + 2.0 * dt_ * dashpot_n;
@@ -134,7 +134,7 @@ class Assembly {
             root[0] * t.about.x + root[1] * t.about.y + root[2] * t.about.z};
   }
 
-  void apply(const Joint& joint) {
+  void apply(const BodyJoint& joint) {
     const Twist& u_i = moved_[static_cast<std::size_t>(joint.i)];
     Vec3 gap = -u_i.along - cross(u_i.about, joint.arm_i);
     if (joint.j >= 0) {
@@ -205,7 +205,7 @@ class Assembly {
   double dt_;
   int n_balls_;                   // of rubber grains
   std::vector<SizeRoots> sizes_;  // of Simulation::rubber_sizes
-  std::vector<Joint> contacts_;
+  std::vector<BodyJoint> contacts_;
   std::vector<std::array<Vec3, 3>> clump_roots_;
   Twists moved_, force_;
 };

@@ -3,13 +3,12 @@
 #include "dem4grm/grains/rubber_size.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "dem4grm/grains/rubber_grain.hpp"
 
 namespace dem {
 namespace {
-
-constexpr double k_pi = 3.14159265358979323846;
 
 /// Cube root of a positive number. Not std::cbrt, whose last bit differs between libraries and would reach the state.
 double cube_root(double value) {
@@ -27,7 +26,7 @@ double cube_root(double value) {
 }  // namespace
 
 double rubber_solid_volume(double ball_radius, double ball_density, double solid_density) {
-  const double balls = k_grain_balls * (4.0 / 3.0 * k_pi) * ball_radius * ball_radius * ball_radius;
+  const double balls = k_grain_balls * (4.0 / 3.0 * std::numbers::pi) * ball_radius * ball_radius * ball_radius;
   return balls * (ball_density / solid_density);
 }
 

@@ -104,7 +104,7 @@ std::string key_note(const Key& key);
 std::optional<std::string> value_text(const Key& key);
 
 /// A TOML string in quotes with all escapes.
-std::string quoted(std::string_view text);
+std::string toml_quoted(std::string_view text);
 
 /// A TOML floating-point number that reads as the same bits.
 std::string toml_number(double value);

@@ -13,7 +13,7 @@ namespace dem {
 namespace {
 
 std::string number_or_quantity(double value, Dimension dimension) {
-  return dimension == Dimension::none ? toml_number(value) : quoted(format_quantity(value, dimension));
+  return dimension == Dimension::none ? toml_number(value) : toml_quoted(format_quantity(value, dimension));
 }
 
 std::string bare_bound(double value, Dimension dimension) { return format_quantity(value, dimension); }
@@ -25,7 +25,7 @@ std::string grading_text(const Grading& grading) {
   std::string text = "[";
   for (std::size_t i = 0; i < grading.size(); ++i) {
     text += i % 4 == 0 ? "\n  " : " ";
-    text += fmt::format("[{}, {}],", quoted(format_quantity(grading[i].size, Dimension::length)),
+    text += fmt::format("[{}, {}],", toml_quoted(format_quantity(grading[i].size, Dimension::length)),
                         toml_number(grading[i].passing));
   }
   return text + "\n]";
@@ -35,7 +35,7 @@ std::string pebbles_text(const std::vector<ClumpShape>& shapes) {
   std::string text = "[";
   for (const ClumpShape& shape : shapes) {
     for (const Pebble& p : shape.pebbles) {
-      text += fmt::format("\n  [{}, {}, {}, {}, {}],", quoted(shape.name), toml_number(p.position.x),
+      text += fmt::format("\n  [{}, {}, {}, {}, {}],", toml_quoted(shape.name), toml_number(p.position.x),
                           toml_number(p.position.y), toml_number(p.position.z), toml_number(p.radius));
     }
   }
@@ -46,7 +46,7 @@ std::string pebbles_text(const std::vector<ClumpShape>& shapes) {
 struct ValueText {
   const Key& key;
 
-  std::optional<std::string> operator()(const TestName& test) const { return quoted(test.name); }
+  std::optional<std::string> operator()(const TestName& test) const { return toml_quoted(test.name); }
   std::optional<std::string> operator()(const double* value) const { return number_or_quantity(*value, key.dimension); }
   std::optional<std::string> operator()(const std::optional<double>* value) const {
     if (!*value) return std::nullopt;
@@ -62,10 +62,10 @@ struct ValueText {
   }
   std::optional<std::string> operator()(const std::uint64_t* value) const { return fmt::format("{}", *value); }
   std::optional<std::string> operator()(const bool* value) const { return *value ? "true" : "false"; }
-  std::optional<std::string> operator()(const std::string* value) const { return quoted(*value); }
+  std::optional<std::string> operator()(const std::string* value) const { return toml_quoted(*value); }
   std::optional<std::string> operator()(const ShapeNamesSlot& slot) const {
     std::vector<std::string> items;
-    for (const std::string& item : *slot.names) items.push_back(quoted(item));
+    for (const std::string& item : *slot.names) items.push_back(toml_quoted(item));
     return listed(items);
   }
   std::optional<std::string> operator()(const std::vector<double>* value) const {
@@ -84,7 +84,7 @@ struct ValueText {
   }
   template <class Enumeration>
   requires std::is_enum_v<Enumeration> std::optional<std::string>
-  operator()(const Enumeration* value) const { return quoted(key.choices[static_cast<std::size_t>(*value)]); }
+  operator()(const Enumeration* value) const { return toml_quoted(key.choices[static_cast<std::size_t>(*value)]); }
 };
 
 }  // namespace
@@ -124,7 +124,7 @@ std::string key_note(const Key& key) {
 
 std::optional<std::string> value_text(const Key& key) { return std::visit(ValueText{key}, key.slot); }
 
-std::string quoted(std::string_view text) {
+std::string toml_quoted(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {

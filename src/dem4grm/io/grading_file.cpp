@@ -16,8 +16,8 @@
 namespace dem {
 namespace {
 
-constexpr std::size_t k_most_rows = 1000;
-constexpr std::string_view k_header = "size_mm,passing_percent";
+constexpr std::size_t k_most_grading_rows = 1000;
+constexpr std::string_view k_grading_header = "size_mm,passing_percent";
 
 std::string shown_size(double size) { return format_quantity(size, Dimension::length); }
 
@@ -36,10 +36,10 @@ class GradingReader {
       if (is_blank_or_comment(fields)) continue;
       if (!has_header_) {
         take_header(i, fields);
-      } else if (result_.points.size() < k_most_rows) {
+      } else if (result_.points.size() < k_most_grading_rows) {
         take_row(i, fields);
       } else {
-        problem(i, fields[0], fmt::format("more than {} rows", k_most_rows), "");
+        problem(i, fields[0], fmt::format("more than {} rows", k_most_grading_rows), "");
         break;
       }
     }
@@ -51,9 +51,10 @@ class GradingReader {
  private:
   void take_header(std::size_t line, const std::vector<CsvField>& fields) {
     has_header_ = true;
-    const bool is_right = fields.size() == 2 && fmt::format("{},{}", fields[0].text, fields[1].text) == k_header;
+    const bool is_right =
+        fields.size() == 2 && fmt::format("{},{}", fields[0].text, fields[1].text) == k_grading_header;
     if (!is_right) {
-      problem(line, text_.whole(line), fmt::format("the first line must be the header \"{}\"", k_header),
+      problem(line, text_.whole(line), fmt::format("the first line must be the header \"{}\"", k_grading_header),
               "a table of sieve size in mm and per cent passing by mass");
     }
   }

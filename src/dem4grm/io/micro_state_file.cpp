@@ -61,8 +61,8 @@ void read_bodies(const Handle& frame, const std::vector<std::uint8_t>& material,
 }
 
 /// The datasets of the contacts of a state.
-struct ContactColumns {
-  explicit ContactColumns(const Handle& group)
+struct StoredContacts {
+  explicit StoredContacts(const Handle& group)
       : ball_i(hdf5::read_whole_numbers(group, "ball_i")),
         ball_j(hdf5::read_whole_numbers(group, "ball_j")),
         wall(hdf5::read_whole_numbers(group, "wall")),
@@ -89,7 +89,7 @@ struct ContactColumns {
 
 /// What contacts with balls and with walls have in common.
 template <class AnyContact>
-void take_row(const ContactColumns& columns, std::size_t row, AnyContact& c) {
+void take_row(const StoredContacts& columns, std::size_t row, AnyContact& c) {
   c.point = columns.point[row];
   c.normal = columns.normal[row];
   c.normal_force = columns.normal_force[row];
@@ -99,7 +99,7 @@ void take_row(const ContactColumns& columns, std::size_t row, AnyContact& c) {
 }
 
 void read_contacts(const Handle& frame, const std::vector<std::uint8_t>& material, ContactNetwork& out) {
-  const ContactColumns columns(hdf5::open_group(frame, "contacts"));
+  const StoredContacts columns(hdf5::open_group(frame, "contacts"));
   for (std::size_t row = 0; row < columns.ball_i.size(); ++row) {
     const Vec3& centre = out.body_position.at(static_cast<std::size_t>(columns.body_i[row]));
     if (columns.wall[row] >= 0) {
@@ -144,7 +144,7 @@ RubberState read_rubber(const Handle& frame, std::size_t n_grains) {
   return out;
 }
 
-MicroState read_state(const Handle& frame) {
+MicroState read_micro_state(const Handle& frame) {
   const std::vector<std::string> columns = hdf5::names_in(hdf5::open_group(frame, "contacts"));
   if (std::find(columns.begin(), columns.end(), "is_sliding") == columns.end()) {
     throw IoError("its contacts have no friction: written before states held it, run the case again");
@@ -188,7 +188,7 @@ StoredMicroState read_micro_state(const std::filesystem::path& results, std::opt
   try {
     const Handle file = hdf5::open_file(results, hdf5::Access::read);
     const Handle group = hdf5::open_group(hdf5::open_group(file, "frames"), frame.name);
-    return {frame.name, frame.displacement, frame.state_hash, read_state(group)};
+    return {frame.name, frame.displacement, frame.state_hash, read_micro_state(group)};
   } catch (const IoError& e) {
     throw damaged(e.what());
   } catch (const std::out_of_range&) {

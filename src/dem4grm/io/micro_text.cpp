@@ -16,7 +16,7 @@
 namespace dem {
 namespace {
 
-constexpr double k_degrees = 180.0 / std::numbers::pi;
+constexpr double k_in_degrees = 180.0 / std::numbers::pi;
 
 std::string number_text(double value) {
   if (std::isnan(value)) return "-";
@@ -36,11 +36,11 @@ struct BandQuantity {
 };
 constexpr std::array<BandQuantity, 6> k_bands{{
     {"a", &AnisotropyBands::fabric_amplitude},
-    {"theta_a", &AnisotropyBands::fabric_direction, k_degrees},
+    {"theta_a", &AnisotropyBands::fabric_direction, k_in_degrees},
     {"a_n", &AnisotropyBands::normal_amplitude},
-    {"theta_n", &AnisotropyBands::normal_direction, k_degrees},
+    {"theta_n", &AnisotropyBands::normal_direction, k_in_degrees},
     {"a_t", &AnisotropyBands::shear_amplitude},
-    {"theta_t", &AnisotropyBands::shear_direction, k_degrees},
+    {"theta_t", &AnisotropyBands::shear_direction, k_in_degrees},
 }};
 
 std::string unit_text(const char* unit) {
@@ -66,7 +66,7 @@ JsonObject bands_as_json(const AnisotropyBands& bands) {
 }
 
 JsonObject options_as_json(const MicroOptions& o) {
-  return {{"bin_width_deg", o.bin_width() * k_degrees},
+  return {{"bin_width_deg", o.bin_width() * k_in_degrees},
           {"level", o.level == ContactLevel::contact ? "contact" : "pair"},
           {"mean", o.force_mean == ForceMean::orientations ? "orientations" : "contacts"},
           {"strong", o.strong == StrongMeasure::normal_force ? "normal" : "magnitude"},
@@ -107,7 +107,7 @@ void append_histogram(std::string& text, const PolarHistogram& h, const char* se
 std::string options_text(const MicroOptions& o) {
   return fmt::format("{}, bins of {:.4g} deg{}, f0 over {}, strong above the mean {}",
                      o.level == ContactLevel::contact ? "contacts" : "contacts merged to pairs of bodies",
-                     o.bin_width() * k_degrees, o.projection == Projection::all ? "" : ", |n_y| < 0.5 only",
+                     o.bin_width() * k_in_degrees, o.projection == Projection::all ? "" : ", |n_y| < 0.5 only",
                      o.force_mean == ForceMean::orientations ? "orientations" : "contacts",
                      o.strong == StrongMeasure::normal_force ? "normal force" : "force");
 }

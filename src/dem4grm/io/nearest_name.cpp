@@ -9,7 +9,7 @@
 namespace dem {
 namespace {
 
-std::string lower(std::string_view text) {
+std::string in_lower_case(std::string_view text) {
   std::string result(text);
   for (char& c : result) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -21,7 +21,7 @@ std::string lower(std::string_view text) {
 }  // namespace
 
 std::size_t edit_distance(std::string_view a_text, std::string_view b_text) {
-  const std::string a = lower(a_text), b = lower(b_text);
+  const std::string a = in_lower_case(a_text), b = in_lower_case(b_text);
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -40,7 +40,7 @@ std::size_t edit_distance(std::string_view a_text, std::string_view b_text) {
 std::optional<std::string_view> nearest_name(std::string_view name, std::span<const std::string_view> names) {
   constexpr std::size_t k_longest = 64;  // a longer name is no slip of the finger, and the distance would take long
   if (name.empty() || name.size() > k_longest) return std::nullopt;
-  const std::string wanted = lower(name);
+  const std::string wanted = in_lower_case(name);
   std::optional<std::string_view> best;
   std::size_t best_distance = std::max<std::size_t>(1, name.size() / 3) + 1;
   for (const std::string_view candidate : names) {

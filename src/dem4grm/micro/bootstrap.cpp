@@ -15,14 +15,13 @@
 namespace dem {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr std::size_t k_values = 6;
 constexpr double k_outside = 0.025;  // on either side of the band
 
 /// Amplitude and direction of fabric, normal and shear force.
 using Anisotropies = std::array<double, k_values>;
 /// Period of each of them; 0: no angle.
-constexpr Anisotropies k_period{0.0, k_pi, 0.0, k_pi, 0.0, 0.5 * k_pi};
+constexpr Anisotropies k_period{0.0, std::numbers::pi, 0.0, std::numbers::pi, 0.0, 0.5 * std::numbers::pi};
 
 Anisotropies anisotropies_of(const PolarHistogram& histogram, ForceMean mean) {
   const HarmonicFit fabric = fabric_anisotropy(histogram);

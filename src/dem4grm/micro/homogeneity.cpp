@@ -25,12 +25,14 @@ double standard_deviation(std::span<const double> values) {
   return std::sqrt(square);
 }
 
-double void_ratio_of(const Zone& zone) { return zone.volume > 0.0 && zone.solid > 0.0 ? zone.void_ratio() : k_unknown; }
+double void_ratio_of(const SolidZone& zone) {
+  return zone.volume > 0.0 && zone.solid > 0.0 ? zone.void_ratio() : k_unknown;
+}
 
 /// Layers from half a mean grain size on.
-double layering_of(std::span<const Zone> layers) {
+double layering_of(std::span<const SolidZone> layers) {
   constexpr std::size_t k_first = 4;  // of layers of an eighth
-  Zone all;
+  SolidZone all;
   for (std::size_t k = k_first; k < layers.size(); ++k) {
     all.volume += layers[k].volume;
     all.solid += layers[k].solid;

@@ -81,7 +81,7 @@ class Collector {
       const auto cell = static_cast<std::size_t>((k * y_.cells + y_.cell_of(j)) * x_.cells + x_.cell_of(i));
       out_.cells[cell].*material += area * shared(a, b, low_ + k * cell_height_, low_ + (k + 1) * cell_height_);
     }
-    add_to_zones(std::min(x_.to_wall(i), y_.to_wall(j)), a, b, area, &Zone::solid);
+    add_to_zones(std::min(x_.to_wall(i), y_.to_wall(j)), a, b, area, &SolidZone::solid);
   }
 
   SolidDistribution take() { return std::move(out_); }
@@ -95,12 +95,12 @@ class Collector {
   void measure_room() {
     for (int i = 0; i < x_.columns; ++i) {
       for (int j = 0; j < y_.columns; ++j) {
-        add_to_zones(std::min(x_.to_wall(i), y_.to_wall(j)), low_, high_, x_.step * y_.step, &Zone::volume);
+        add_to_zones(std::min(x_.to_wall(i), y_.to_wall(j)), low_, high_, x_.step * y_.step, &SolidZone::volume);
       }
     }
   }
 
-  void add_to_zones(double to_side, double a, double b, double area, double Zone::*part) {
+  void add_to_zones(double to_side, double a, double b, double area, double SolidZone::*part) {
     const double near = k_near * mean_size_, far = k_far * mean_size_;
     const double deep = area * shared(a, b, low_ + far, high_ - far);
     if (to_side >= far) {
@@ -116,7 +116,7 @@ class Collector {
   }
 
   /// a, b: distances from one plate.
-  void add_to_plate_layers(double a, double b, double area, double Zone::*part) {
+  void add_to_plate_layers(double a, double b, double area, double SolidZone::*part) {
     const auto n = static_cast<int>(out_.plate_layers.size());
     for (int k = static_cast<int>(a / layer_); k < n && k * layer_ < b; ++k) {
       out_.plate_layers[static_cast<std::size_t>(k)].*part += area * shared(a, b, k * layer_, (k + 1) * layer_);

@@ -20,7 +20,7 @@
 namespace dem {
 
 /// A volume of the box and the solid in it, m3.
-struct Zone {
+struct SolidZone {
   double volume = 0.0, solid = 0.0;
   [[nodiscard]] double void_ratio() const { return volume / solid - 1.0; }
 };
@@ -35,9 +35,9 @@ struct SolidDistribution {
   std::vector<Cell> cells;      ///< [nz][ny][nx]
   /// Zones by the distance to the plates and to the side walls: nearer than D/2 to one kind and farther than 1.5 D from
   /// the other; farther than 1.5 D from both. Volume 0 when the box is too small.
-  Zone at_plates, at_sides, inside;
+  SolidZone at_plates, at_sides, inside;
   /// Layers of D/8 by the distance to the nearest plate, and to the nearest side wall, up to 2.5 D or the middle.
-  std::vector<Zone> plate_layers, side_layers;
+  std::vector<SolidZone> plate_layers, side_layers;
 };
 
 /// Cells have edges of about 4 D, at least one along each axis. room: the box up to the plate; rubber_fill: solid volume of

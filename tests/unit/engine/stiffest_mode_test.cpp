@@ -18,12 +18,13 @@ namespace {
 using namespace dem;
 using namespace dem::test;
 
-constexpr double k_radius = k_pressed_radius;
+constexpr double k_sphere_radius = k_pressed_radius;
 
 /// The turning mode, 2 k_s l^2 / (0.4 m r^2): walls do not move, so nothing is counted twice.
 double limit_of_pressed_sphere() {
-  const double lever = k_radius - 10e-6, mass = 4.0 / 3.0 * k_pi * k_radius * k_radius * k_radius * 2710;
-  return 2.0 / std::sqrt(2 * 9.459451e4 * lever * lever / (0.4 * mass * k_radius * k_radius));
+  const double lever = k_sphere_radius - 10e-6,
+               mass = 4.0 / 3.0 * k_pi * k_sphere_radius * k_sphere_radius * k_sphere_radius * 2710;
+  return 2.0 / std::sqrt(2 * 9.459451e4 * lever * lever / (0.4 * mass * k_sphere_radius * k_sphere_radius));
 }
 
 TEST(StiffestMode, OfASpherePressedBetweenPlates) {
@@ -42,7 +43,7 @@ TEST(StiffestMode, FromTooLongAStepTheAnswerIsOnTheSafeSide) {
 
 TEST(StiffestMode, NothingJoinedNothingLimits) {
   Scene scene = model_scene();
-  add_sphere(scene, {0, 0, 0}, k_radius);
+  add_sphere(scene, {0, 0, 0}, k_sphere_radius);
   Simulation s(scene);
   s.set_time_step(1e-6);
   s.step();
@@ -137,7 +138,7 @@ TEST(ChangeOfTheTimeStep, ContactsSeeTheDisplacementThatWasMade) {
   scene.wall_list = {make_wall("floor", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0})};
   scene.wall_list[0].friction = 1e3;
   scene.gravel.friction = 1e3;
-  add_sphere(scene, {0, 0, k_radius - 20e-6}, k_radius);
+  add_sphere(scene, {0, 0, k_sphere_radius - 20e-6}, k_sphere_radius);
   Simulation s(scene);
   s.set_time_step(1e-7);
   s.walls[0].velocity = {0.01, 0, 0};

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "dem4grm/core/random.hpp"
@@ -13,8 +14,6 @@
 namespace {
 
 using namespace dem;
-
-constexpr double k_pi = 3.14159265358979323846;
 
 /// Integrals along the axis x of a body of revolution.
 struct Revolved {
@@ -32,10 +31,10 @@ void add_slice(Revolved& body, double c, double radius, double a, double b) {
   };
   const auto high = antiderivatives(b - c), low = antiderivatives(a - c);
   const double p0 = high[0] - low[0], p1 = high[1] - low[1], p2 = high[2] - low[2], pp = high[3] - low[3];
-  body.volume += k_pi * p0;
-  body.first += k_pi * (p1 + c * p0);
-  body.axial += k_pi / 2 * pp;
-  body.transverse += k_pi / 4 * pp + k_pi * (p2 + 2 * c * p1 + c * c * p0);
+  body.volume += std::numbers::pi * p0;
+  body.first += std::numbers::pi * (p1 + c * p0);
+  body.axial += std::numbers::pi / 2 * pp;
+  body.transverse += std::numbers::pi / 4 * pp + std::numbers::pi * (p2 + 2 * c * p1 + c * c * p0);
 }
 
 /// Exact union of spheres of radius r1 at x = 0 and r2 at x = d: they part at the plane of their common circle.
@@ -60,7 +59,7 @@ double quadratic_form(const SymmetricTensor& t, const Vec3& a, const Vec3& b) {
 TEST(UnionProperties, OnePebbleIsExact) {
   const std::vector<Pebble> pebbles{{{1.5, -2.0, 0.7}, 0.8}};
   const UnionProperties body = union_properties(pebbles);
-  const double volume = 4.0 / 3.0 * k_pi * 0.512;
+  const double volume = 4.0 / 3.0 * std::numbers::pi * 0.512;
   EXPECT_NEAR(body.volume, volume, 1e-14);
   EXPECT_NEAR(norm(body.centroid - pebbles[0].position), 0.0, 1e-14);
   EXPECT_NEAR(body.inertia.xx, 0.4 * volume * 0.64, 1e-14);
@@ -70,7 +69,7 @@ TEST(UnionProperties, OnePebbleIsExact) {
 TEST(UnionProperties, TwoEqualSpheresMatchTheLensFormula) {
   const double r = 1.0, c = 0.6;  // V = 8/3 pi R^3 - pi/12 (4R + c)(2R - c)^2
   const UnionProperties body = union_properties(std::vector<Pebble>{{{-0.3, 0, 0}, r}, {{0.3, 0, 0}, r}});
-  const double exact = 8.0 / 3.0 * k_pi - k_pi / 12.0 * (4 * r + c) * (2 * r - c) * (2 * r - c);
+  const double exact = 8.0 / 3.0 * std::numbers::pi - std::numbers::pi / 12.0 * (4 * r + c) * (2 * r - c) * (2 * r - c);
   EXPECT_NEAR(exact, 6.017, 0.0005);  // physics reference, 5.3
   EXPECT_NEAR(body.volume / exact, 1.0, 2e-5);
 }
@@ -98,14 +97,14 @@ TEST(UnionProperties, TwoUnequalSpheresInAnyPositionMatchTheClosedForm) {
 
 TEST(UnionProperties, TouchingAndSeparatePebblesAddUpExactly) {
   const UnionProperties body = union_properties(std::vector<Pebble>{{{0, 0, 0}, 1.0}, {{0, 0, 3.0}, 1.0}});
-  EXPECT_NEAR(body.volume, 8.0 / 3.0 * k_pi, 1e-13);
-  EXPECT_NEAR(body.inertia.zz, 2 * 0.4 * 4.0 / 3.0 * k_pi, 1e-12);
-  EXPECT_NEAR(body.inertia.xx, 8.0 / 3.0 * k_pi * (0.4 + 2.25), 1e-12);
+  EXPECT_NEAR(body.volume, 8.0 / 3.0 * std::numbers::pi, 1e-13);
+  EXPECT_NEAR(body.inertia.zz, 2 * 0.4 * 4.0 / 3.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(body.inertia.xx, 8.0 / 3.0 * std::numbers::pi * (0.4 + 2.25), 1e-12);
 }
 
 TEST(UnionProperties, APebbleInsideAnotherAddsNothing) {
   const UnionProperties body = union_properties(std::vector<Pebble>{{{0, 0, 0}, 1.0}, {{0.2, 0.1, 0}, 0.5}});
-  EXPECT_NEAR(body.volume / (4.0 / 3.0 * k_pi), 1.0, 1e-4);
+  EXPECT_NEAR(body.volume / (4.0 / 3.0 * std::numbers::pi), 1.0, 1e-4);
 }
 
 TEST(PrincipalAxes, MomentsAreSortedAndTheFrameIsRightHanded) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "dem4grm/core/random.hpp"
@@ -13,8 +14,6 @@
 namespace {
 
 using namespace dem;
-
-constexpr double k_pi = 3.14159265358979323846;
 
 std::vector<Pebble> equal_pebbles(const std::vector<Vec3>& centres, double radius) {
   std::vector<Pebble> pebbles;
@@ -60,7 +59,7 @@ double scanned_opening(const std::vector<Pebble>& pebbles) {
     const Vec3 a = perpendicular(across, view) * (1.0 / norm(perpendicular(across, view)));
     const Vec3 b = cross(view, a);
     for (int j = 0; j < n_turns; ++j) {
-      const double angle = 0.5 * k_pi * j / n_turns;
+      const double angle = 0.5 * std::numbers::pi * j / n_turns;
       const Vec3 u = a * std::cos(angle) + b * std::sin(angle), v = cross(view, u);
       smallest = std::min(smallest, std::max(extent(pebbles, u), extent(pebbles, v)));
     }

@@ -17,7 +17,7 @@
 namespace dem {
 namespace {
 
-std::vector<std::string> faults_of(std::string_view text) {
+std::vector<std::string> faults_in(std::string_view text) {
   std::vector<std::string> headlines;
   for (const std::string& problem : parse_grading(text, "g.csv").problems) {
     headlines.emplace_back(split_lines(problem).front());
@@ -53,31 +53,31 @@ TEST(GradingFileTest, RenderedLikeTheProblemsOfACase) {
 
 TEST(GradingFileTest, AllRules) {
   const std::string head = "size_mm,passing_percent\n";
-  EXPECT_EQ(faults_of(""), Faults{"g.csv:1:1: error: a grading needs at least two rows: the sieve that nothing passes "
+  EXPECT_EQ(faults_in(""), Faults{"g.csv:1:1: error: a grading needs at least two rows: the sieve that nothing passes "
                                   "and the one that everything passes"});
-  EXPECT_EQ(faults_of(head + "3,0\n").size(), 1u);
-  EXPECT_EQ(faults_of("3,0\n4,100\n"),
+  EXPECT_EQ(faults_in(head + "3,0\n").size(), 1u);
+  EXPECT_EQ(faults_in("3,0\n4,100\n"),
             Faults{"g.csv:1:1: error: the first line must be the header \"size_mm,passing_percent\""});
-  EXPECT_EQ(faults_of(head + "3,0\n3,50\n4,100\n"),
+  EXPECT_EQ(faults_in(head + "3,0\n3,50\n4,100\n"),
             Faults{"g.csv:3:1: error: sieve sizes must increase: 3 mm after 3 mm"});
-  EXPECT_EQ(faults_of(head + "3,1\n4,99\n"), (Faults{"g.csv:2:3: error: the first row must pass 0, not 1 %",
+  EXPECT_EQ(faults_in(head + "3,1\n4,99\n"), (Faults{"g.csv:2:3: error: the first row must pass 0, not 1 %",
                                                      "g.csv:3:3: error: the last row must pass 100 %, not 99 %"}));
-  EXPECT_EQ(faults_of(head + "-3,0\n4,100.5\n"),
+  EXPECT_EQ(faults_in(head + "-3,0\n4,100.5\n"),
             (Faults{"g.csv:2:1: error: sieve size -3 mm is outside [0.001 mm, 1000 mm]",
                     "g.csv:3:3: error: passing 100.5 % is outside [0 %, 100 %]"}));
-  EXPECT_EQ(faults_of(head + "3,0\n4;5\nx,50\n5,inf\n6,1e999\n"),
+  EXPECT_EQ(faults_in(head + "3,0\n4;5\nx,50\n5,inf\n6,1e999\n"),
             (Faults{"g.csv:3:1: error: 1 instead of 2 numbers", "g.csv:4:1: error: \"x\" is not a plain decimal number",
                     "g.csv:5:3: error: \"inf\" is not a plain decimal number",
                     "g.csv:6:3: error: \"1e999\" is not a plain decimal number"}));
-  EXPECT_EQ(faults_of(head + "3,0,\n4,100\n"), Faults{"g.csv:2:1: error: 3 instead of 2 numbers"});
+  EXPECT_EQ(faults_in(head + "3,0,\n4,100\n"), Faults{"g.csv:2:1: error: 3 instead of 2 numbers"});
 }
 
 TEST(GradingFileTest, AnyBytesAreSurvived) {
   EXPECT_FALSE(parse_grading(std::string_view("\0\xff,\x80\n,,,\n", 9), "g.csv").problems.empty());
-  EXPECT_EQ(faults_of(std::string(k_largest_case_file + 1, 'x')).size(), 1u);
+  EXPECT_EQ(faults_in(std::string(k_largest_case_file + 1, 'x')).size(), 1u);
   std::string many = "size_mm,passing_percent\n";
   for (int i = 0; i < 5000; ++i) many += std::to_string(1 + i) + ",0\n";
-  EXPECT_EQ(faults_of(many), Faults{"g.csv:1002:1: error: more than 1000 rows"});
+  EXPECT_EQ(faults_in(many), Faults{"g.csv:1002:1: error: more than 1000 rows"});
 }
 
 TEST(GradingFileTest, MissingFile) {

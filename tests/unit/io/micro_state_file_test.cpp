@@ -23,12 +23,12 @@ namespace {
 using NumberBits = std::array<std::uint64_t, sizeof(MicroNumbers) / sizeof(std::uint64_t)>;
 NumberBits bits_of(const MicroNumbers& numbers) { return std::bit_cast<NumberBits>(numbers); }
 
-const ResultsOrigin k_origin{"direct_shear", "box", "text", "resolved"};
+const ResultsOrigin k_state_origin{"direct_shear", "box", "text", "resolved"};
 
 class MicroStateFile : public ::testing::Test {
  protected:
   MicroStateFile() : path_(folder_ / "results.h5") {
-    ResultsFile file(path_, k_origin);
+    ResultsFile file(path_, k_state_origin);
     file.add_frame(early_, {0, 0.0, early_.state_hash()});
     file.add_frame(late_, {1, 2.003e-3, late_.state_hash()});
   }
@@ -71,7 +71,7 @@ TEST_F(MicroStateFile, GivesTheBitsOfTheSimulation) {
 TEST_F(MicroStateFile, SaysWhichStatesThereAre) {
   expect_error(path_, 1e-3, ExitCode::missing_file, "no state at 1 mm; there are states at 0, 2 mm");
   expect_error(folder_ / "absent.h5", 1e-3, ExitCode::missing_file, "absent.h5");
-  const ResultsFile empty(folder_ / "empty.h5", k_origin);
+  const ResultsFile empty(folder_ / "empty.h5", k_state_origin);
   expect_error(folder_ / "empty.h5", std::nullopt, ExitCode::missing_file, "no state yet");
   const ResultsFile grain(folder_ / "grain.h5", {"grain_compression", "grain", "", ""});
   expect_error(folder_ / "grain.h5", std::nullopt, ExitCode::io, "needs a direct shear test");

@@ -16,9 +16,7 @@
 namespace dem {
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
-
-double sphere(double radius) { return 4.0 / 3.0 * k_pi * radius * radius * radius; }
+double sphere(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
 void add_clump(Packing& packing, const std::vector<Pebble>& pebbles) {
   const int body = packing.body.empty() ? 0 : packing.body.back() + 1;
@@ -59,7 +57,7 @@ TEST(SolidDistribution, ASphereOnTheBordersOfCellsIsCutIntoItsCaps) {
   add_clump(packing, {{{9e-3, 9e-3, 20e-3 - past}, r}});
   const SolidDistribution solid = solid_distribution(packing, k_box, 5e-3, 1.4);
   EXPECT_EQ(solid.counts, (std::array<int, 3>{2, 2, 2}));
-  const double cap = k_pi * (r - past) * (r - past) * (3 * r - (r - past)) / 3.0;  // pi h^2 (3 R - h) / 3
+  const double cap = std::numbers::pi * (r - past) * (r - past) * (3 * r - (r - past)) / 3.0;  // pi h^2 (3 R - h) / 3
   const auto gravel = [&](std::size_t x, std::size_t y, std::size_t z) {
     return solid.cells[(z * 2 + y) * 2 + x].gravel;
   };
@@ -74,7 +72,8 @@ TEST(SolidDistribution, ASphereOnTheBordersOfCellsIsCutIntoItsCaps) {
 
 TEST(SolidDistribution, TheOverlapOfPebblesCountsOnceAndThatOfGrainsTwice) {
   const double r = 3e-3, c = 2e-3;
-  const double both = 8.0 / 3.0 * k_pi * r * r * r - k_pi / 12.0 * (4 * r + c) * (2 * r - c) * (2 * r - c);
+  const double both =
+      8.0 / 3.0 * std::numbers::pi * r * r * r - std::numbers::pi / 12.0 * (4 * r + c) * (2 * r - c) * (2 * r - c);
   Packing one, two;
   add_clump(one, {{{10e-3, 10e-3, 10e-3}, r}, {{10e-3, 10e-3, 10e-3 + c}, r}});
   add_clump(two, {{{10e-3, 10e-3, 10e-3}, r}});
@@ -151,7 +150,7 @@ TEST(Homogeneity, LayersOfALatticeHaveTheirClosedForm) {
   EXPECT_NEAR(std::sqrt(square), 0.433, 0.005);  // 0.447 = sqrt(6/5 - 1) for endlessly thin layers
   EXPECT_NEAR(found.layering_at_plates, std::sqrt(square), 0.003);
   EXPECT_NEAR(found.layering_at_sides, std::sqrt(square), 0.02);
-  const double void_ratio = 6.0 / k_pi - 1.0;
+  const double void_ratio = 6.0 / std::numbers::pi - 1.0;
   EXPECT_NEAR(found.void_ratio_inside, void_ratio, 0.005);
   EXPECT_NEAR(found.void_ratio_at_plates, void_ratio, 0.005);  // half a layer of spheres is as dense as a whole one
   EXPECT_NEAR(found.void_ratio_at_sides, void_ratio, 0.03);
@@ -166,7 +165,7 @@ TEST(Homogeneity, AGapAtThePlatesShowsThereAndNowhereElse) {
   const double at_plates = 5.0 / 32.0 * sphere(2.5e-3) / (25e-6 * 2.5e-3);
   EXPECT_NEAR(found.void_ratio_at_plates * at_plates, 1.0 - at_plates, 0.005);
   // Inside are 37.5 mm: seven whole layers (mean 2/3 of pi/4) and the middle half of an eighth one (mean 11/12).
-  const double inside = k_pi / 4.0 * (35.0 * 2.0 / 3.0 + 2.5 * 11.0 / 12.0) / 37.5;
+  const double inside = std::numbers::pi / 4.0 * (35.0 * 2.0 / 3.0 + 2.5 * 11.0 / 12.0) / 37.5;
   EXPECT_NEAR(found.void_ratio_inside, 1.0 / inside - 1.0, 0.005);
 }
 

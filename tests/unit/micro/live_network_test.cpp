@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/micro/analysis.hpp"
@@ -16,12 +17,10 @@ namespace {
 
 using test::apart;
 
-constexpr double k_pi = std::numbers::pi;
-
 /// 105 clumps and 35 rubber grains pressed and sheared, in motion.
 const Simulation& sheared_box() {
-  static const Simulation k_box = test::run_mixture({}, 3000);
-  return k_box;
+  static const Simulation k_sheared_box = test::run_mixture({}, 3000);
+  return k_sheared_box;
 }
 const MicroState& state_of_box() {
   static const MicroState k_state = micro_state_of(sheared_box());
@@ -191,10 +190,10 @@ TEST_P(LooksAtTheBox, MirrorTurnsAnglesAndShearStressRound) {
   const MicroNumbers found = analyse(other, options_).numbers;
   expect_same(found, straight_, 1e-11);
   const SetNumbers &x = found.of_all(), &y = straight_.of_all();
-  EXPECT_LT(apart(x.fabric_direction, -y.fabric_direction, k_pi), 1e-10);
-  EXPECT_LT(apart(x.normal_direction, -y.normal_direction, k_pi), 1e-10);
-  EXPECT_LT(apart(x.shear_direction, -y.shear_direction, 0.5 * k_pi), 1e-10);
-  EXPECT_LT(apart(found.stress_direction, -straight_.stress_direction, k_pi), 1e-10);
+  EXPECT_LT(apart(x.fabric_direction, -y.fabric_direction, std::numbers::pi), 1e-10);
+  EXPECT_LT(apart(x.normal_direction, -y.normal_direction, std::numbers::pi), 1e-10);
+  EXPECT_LT(apart(x.shear_direction, -y.shear_direction, 0.5 * std::numbers::pi), 1e-10);
+  EXPECT_LT(apart(found.stress_direction, -straight_.stress_direction, std::numbers::pi), 1e-10);
   EXPECT_NEAR(found.stress_xz, -straight_.stress_xz, 1e-9 * straight_.stress_zz);
   EXPECT_NEAR(found.boundary_xz, -straight_.boundary_xz, 1e-9 * straight_.stress_zz);
 }

@@ -22,7 +22,7 @@ namespace dem {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-constexpr double k_ball_density = 1610.0, k_solid_density = 1150.0;
+constexpr double k_rubber_density = 1610.0, k_solid_density = 1150.0;
 
 /// Clumps of these pebbles, each turned and moved at random.
 Packing turned(const std::vector<std::vector<Pebble>>& clumps, std::uint64_t seed = 1) {
@@ -52,7 +52,7 @@ TEST(SieveAnalysis, KnownClumpsHaveTheirCaliperSizes) {
   const double r = 2.5e-3;
   const MeasuredGrains grains = measure_grains(
       turned({{{{0, 0, 0}, r}}, pair(r, 2e-3), pair(2 * r, 4e-3), pair(r, 2.1e-3), triangle(r, 0.7 * r)}),
-      k_ball_density, k_solid_density);
+      k_rubber_density, k_solid_density);
   ASSERT_EQ(grains.gravel.size(), 5U);
   // Sphere: diameter. Pairs pass lengthwise: the diameter too. Triangle of edge e on its corner in the opening:
   // 2 R + e sqrt(6) / 4 (docs/theory/clumps.md).
@@ -75,7 +75,7 @@ TEST(SieveAnalysis, ShapesThatAreNearlyAlikeAreToldApart) {
   // The second triangle is a millionth larger in its edge; the third is the first at twice the size.
   const double r = 1e-3, edge = 1.2e-3, longer = edge * (1.0 + 1e-6);
   const MeasuredGrains grains = measure_grains(
-      turned({triangle(r, edge), triangle(r, longer), triangle(2 * r, 2 * edge)}), k_ball_density, k_solid_density);
+      turned({triangle(r, edge), triangle(r, longer), triangle(2 * r, 2 * edge)}), k_rubber_density, k_solid_density);
   EXPECT_NEAR((grains.gravel[1].size - grains.gravel[0].size) / ((longer - edge) * std::sqrt(6.0) / 4.0), 1.0, 0.02);
   EXPECT_NEAR(grains.gravel[2].size / grains.gravel[0].size, 2.0, 1e-9);
   EXPECT_NEAR(grains.gravel[2].volume / grains.gravel[0].volume, 8.0, 1e-9);
@@ -91,7 +91,7 @@ TEST(SieveAnalysis, RubberGoesByTheRadiusOfItsBalls) {
       packing.body.push_back(radius > 0.6e-3 ? 1 : 0);
     }
   }
-  const MeasuredGrains grains = measure_grains(packing, k_ball_density, k_solid_density);
+  const MeasuredGrains grains = measure_grains(packing, k_rubber_density, k_solid_density);
   ASSERT_EQ(grains.rubber.size(), 2U);
   EXPECT_NEAR(grains.rubber[0].size / (5.899 * 0.5e-3), 1.0, 1e-4);  // 5.899 r and 205.25 r^3 (spec of the model)
   EXPECT_NEAR(grains.rubber[1].volume / (205.25 * std::pow(0.627e-3, 3)), 1.0, 1e-4);
