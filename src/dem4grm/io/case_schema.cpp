@@ -158,6 +158,9 @@ void add_specimen(Keys& keys, SpecimenSettings& specimen) {
      .help = "friction between grains while the random fill relaxes"},
     {.section = "specimen", .name = "approach_speed", .slot = &specimen.approach_speed, .dimension = k_speed,
      .range = {1e-5, 1}, .help = "largest speed of the plate before shear"},
+    {.section = "specimen", .name = "approach_inertial_number", .slot = &specimen.approach_inertial_number,
+     .range = {0, 0.1}, .help = "in branches of the search the plate may be faster than approach_speed, up to this "
+     "inertial number"},
   });
 }
 
@@ -190,6 +193,10 @@ void add_servo_and_equilibrium(Keys& keys, ServoSettings& servo, EquilibriumSett
      .help = "mean net force on a body over mean contact force"},
     {.section = "equilibrium", .name = "branch_force_ratio", .slot = &equilibrium.branch_force_ratio,
      .range = {1e-9, 0.1}, .help = "the same in branches of the search and under load_steps, unless force_ratio is larger"},
+    {.section = "equilibrium", .name = "branch_inertial_number", .slot = &equilibrium.branch_inertial_number,
+     .range = {1e-9, 0.01}, .help = "there, inertial number of the plate at rest, unless plate_speed is larger"},
+    {.section = "equilibrium", .name = "branch_hold_steps", .slot = &equilibrium.branch_hold_steps,
+     .range = {1, 1e9}, .help = "there, at rest when all hold for so many steps, unless hold_steps is smaller"},
     {.section = "equilibrium", .name = "plate_speed", .slot = &equilibrium.plate_speed, .dimension = k_speed,
      .range = {1e-9, 0.1}, .help = "largest speed of the plate at rest"},
     {.section = "equilibrium", .name = "stress_tolerance", .slot = &equilibrium.stress_tolerance,

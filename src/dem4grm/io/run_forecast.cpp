@@ -13,7 +13,9 @@
 #include "dem4grm/lab/dense_assembly.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/grain_compression.hpp"
+#include "dem4grm/specimen/branch_words.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
+#include "dem4grm/specimen/rest.hpp"
 
 namespace dem {
 namespace {
@@ -29,7 +31,7 @@ constexpr double k_growth_of_time_step = 1.28;
 // rest twice.
 // A search takes e_min, e_max and two trials or three. Each rests after its way; without friction it creeps, the longer the
 // more grains there are: 17,000 to 22,000 steps with 600 grains, 130,000 with 4,488.
-constexpr double k_usual_branches = 4.7, k_branch_rest = 8000.0, k_smooth_rest_per_grain = 29.0;
+constexpr double k_usual_branches = 4.5, k_branch_rest = 4000.0, k_smooth_rest_per_grain = 29.0;
 constexpr double k_fill_of_gravel = 7000.0, k_fill_of_rubber = 19000.0, k_rest_steps = 18000.0;
 // Compressed bytes in a full state, measured on states of gravel, rubber and a mixture.
 constexpr double k_bytes_per_ball = 46.0, k_bytes_per_bond = 27.0, k_bytes_per_clump = 106.0,
@@ -86,11 +88,16 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   const double layer = grains.solid_volume() / (test.box.length * test.box.width);
   const double travel = layer * std::max(0.0, facts.generation_void_ratio - facts.expected_void_ratio);
   const double fill_steps = k_fill_of_gravel + (k_fill_of_rubber - k_fill_of_gravel) * facts.rubber_content;
-  const double way = travel / test.specimen.approach_speed / facts.time_step;
+  const double slow = test.specimen.approach_speed;
+  const Layer fill{layer * (1.0 + facts.generation_void_ratio), facts.mean_size, facts.mean_density};
+  // While the plate comes down the stress rises to that of the first rest.
+  const double quick = plate_speed_at(test.specimen.approach_inertial_number, fill,
+                                      0.3 * rest_stresses(order, test.specimen.branch_stress_ratio).front());
+  const double way = travel / slow / facts.time_step, branch_way = travel / std::max(slow, quick) / facts.time_step;
   const bool has_search = !test.specimen.preparation_friction;
   const auto stops = std::count_if(test.specimen.load_steps.begin(), test.specimen.load_steps.end(),
                                    [&](double stress) { return stress < test.shear.normal_stress; });
-  const double branch = way + k_branch_rest * (1.0 + static_cast<double>(stops));
+  const double branch = branch_way + k_branch_rest * (1.0 + static_cast<double>(stops));
   const double search = k_usual_branches * branch + k_smooth_rest_per_grain * (facts.clumps + facts.rubber_grains);
   const double preparation_steps = fill_steps + (has_search ? search : way) + k_rest_steps;
   out.steps = std::llround(preparation_steps + shear_steps);

@@ -4,10 +4,12 @@
 //   D_r = (e_max - e) / (e_max - e_min)                                             (ASTM D4254, dimensionless)
 //
 // e_min and e_max are the void ratios under the same stress with the smallest and the largest friction; in between, e
-// rises with the friction. D_r is nearly a straight line over x = mu / (mu + 0.1), which bends the curve's long tail
-// back, and trials close in from both sides. Specimens whose frictions differ by a hair scatter (a few per cent of D_r
-// with 500 grains); so every trial keeps a little distance from the earlier ones, outside of what they enclose if need
-// be. What counts is the density that a specimen has, not the friction that ought to give it.
+// rises with the friction. D_r is nearly a straight line over x = m / (m + bend), m = mu - smallest mu, which bends the
+// curve's long tail back. The first trial guesses the bend from e_max - e_min; from then on it is that of the curve
+// through e_min, e_max and the trial nearest to the target. Specimens whose frictions differ by a hair scatter (a few
+// per cent of D_r with 500 grains); so every trial keeps a little distance from the earlier ones, outside of what they
+// enclose if need be. What counts is the density that a specimen has, not the friction that ought to give it: the guess
+// decides how soon a specimen is found, never which is taken.
 #pragma once
 
 #include <cstdint>

@@ -23,7 +23,7 @@ constexpr const char* k_compression = "compression";
 constexpr const char* k_final_friction = "final friction";
 
 // For the forecast only: steps from the first load to rest, and trials until the density is met.
-constexpr double k_usual_rest = 12000.0;
+constexpr double k_usual_rest = 6000.0;
 constexpr int k_usual_branches = 4;
 
 class Preparation {
@@ -39,6 +39,8 @@ class Preparation {
                  order.servo.gain,      out_.grains.solid_volume()};
     out_.bounds = {{-order.box.wing, 0.0, 0.0},
                    {order.box.length + order.box.wing, order.box.width, order.box.upper_height}};
+    layer_ = {out_.load.solid_volume * (1.0 + out_.report.void_ratio_generated) / out_.load.area, out_.report.mean_size,
+              out_.report.mean_density};
     target_ = {order.specimen.relative_density.value_or(k_default_relative_density),
                order.specimen.relative_density_tolerance, order.specimen.smallest_friction,
                order.specimen.largest_friction};
@@ -175,7 +177,7 @@ class Preparation {
       std::optional<StateArchive> archive = hooks_.fetch(state_name(station));
       if (!archive) continue;
       exchange_branch(*archive);
-      out_.load.stress = stations()[station_];
+      aim_at(stations()[station_]);
       is_fetched_ = true;
       return true;
     }
@@ -199,13 +201,22 @@ class Preparation {
     return order_.specimen.preparation_friction ? rest_stresses(order_, 1.0) : std::vector{order_.normal_stress};
   }
 
+  /// In a branch only the void ratio counts, so the plate may go as fast as inertia does not matter.
+  void aim_at(double stress) {
+    const SpecimenSettings& specimen = order_.specimen;
+    out_.load.stress = stress;
+    out_.load.speed_cap = specimen.approach_speed;
+    out_.load.speed_of_stress =
+        stage_ == k_branch ? plate_speed_at(specimen.approach_inertial_number, layer_, 1.0) : 0.0;
+  }
+
   void begin_station(std::size_t station) {
     station_ = station;
     if (station == 0) station_steps_ = 0;
     rest_ = {};
     is_fetched_ = false;
     Simulation& s = *out_.simulation;
-    out_.load.stress = stations()[station];
+    aim_at(stations()[station]);
     out_.report.time_step = choose_time_step(s, out_.load.stress);
     if (s.steps == 0) {
       s.set_time_step(out_.report.time_step.seconds);
@@ -233,6 +244,8 @@ class Preparation {
   [[nodiscard]] EquilibriumSettings branch_equilibrium() const {
     EquilibriumSettings e = order_.equilibrium;
     e.force_ratio = std::max(e.force_ratio, e.branch_force_ratio);
+    e.plate_speed = std::max(e.plate_speed, plate_speed_at(e.branch_inertial_number, layer_, out_.load.stress));
+    e.hold_steps = std::min(e.hold_steps, e.branch_hold_steps);
     return e;
   }
 
@@ -306,7 +319,7 @@ class Preparation {
     const double e = specimen.expected_void_ratio.value_or(expected_void_ratio(specimen.rubber_content));
     const auto way = [&](double height) {
       const double goal = out_.load.solid_volume * (1.0 + e) / out_.load.area;
-      return std::max(0.0, height - goal) / (specimen.approach_speed * s.time_step());
+      return std::max(0.0, height - goal) / (speed_cap_at(out_.load, 0.5 * out_.load.stress) * s.time_step());
     };
     const double stations_left = static_cast<double>(stations().size() - station_);
     double left = way(s.walls[ShearBox::k_top_plate].corner.z) + k_usual_rest * stations_left;
@@ -349,12 +362,13 @@ class Preparation {
     exchange(archive, out_);
     if (!archive.has_group("rest")) return;  // in shear
     exchange_place(archive);
-    out_.load.stress = stage_ == k_final_friction ? order_.normal_stress : stations().at(station_);
+    aim_at(stage_ == k_final_friction ? order_.normal_stress : stations().at(station_));
   }
 
   const SpecimenOrder& order_;
   const PreparationHooks& hooks_;
   DensityTarget target_;
+  Layer layer_;  ///< the fill
   Specimen out_;
   std::string stage_ = k_fill;
   Fill fill_;                       ///< grains in the order of their final numbers

@@ -3,11 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dem4grm/core/error.hpp"
 
 namespace dem {
+
+double speed_cap_at(const PlateLoad& load, double stress) {
+  return std::max(load.speed_cap, load.speed_of_stress * std::sqrt(std::clamp(stress, 0.0, load.stress)));
+}
 
 double plate_stress(const Simulation& s, const PlateLoad& load) {
   const auto w = static_cast<std::size_t>(load.wall);
@@ -16,6 +21,10 @@ double plate_stress(const Simulation& s, const PlateLoad& load) {
 
 double plate_void_ratio(const Simulation& s, const PlateLoad& load) {
   return load.area * s.walls[static_cast<std::size_t>(load.wall)].corner.z / load.solid_volume - 1.0;
+}
+
+double plate_speed_at(double inertial_number, const Layer& layer, double stress) {
+  return inertial_number * layer.height * std::sqrt(stress / layer.density) / layer.mean_size;
 }
 
 namespace {
@@ -42,6 +51,7 @@ void bring_to_rest(Simulation& s, const PlateLoad& load, const EquilibriumSettin
   const auto plate = static_cast<std::size_t>(load.wall);
   while (now.held < settings.hold_steps) {
     const double height = s.walls[plate].corner.z, start = s.time;
+    s.servo.speed_cap = speed_cap_at(load, now.stress);
     for (int k = 0; k < k_rest_interval; ++k) s.step();
     now.steps += k_rest_interval;
     now.plate_speed = (s.walls[plate].corner.z - height) / (s.time - start);

@@ -18,7 +18,22 @@ struct PlateLoad {
   double speed_cap = 0.0;     ///< m/s
   double gain = 0.5;          ///< of the servo
   double solid_volume = 0.0;  ///< m3, for the void ratio
+  /// m/s over the root of Pa: faster than speed_cap up to this times the root of the stress that has been reached, since
+  /// a specimen bears more speed the firmer it is pressed together.
+  double speed_of_stress = 0.0;
 };
+
+/// A layer of grains that a plate compresses.
+struct Layer {
+  double height = 0.0;     ///< m
+  double mean_size = 0.0;  ///< m, of the grains
+  double density = 0.0;    ///< kg/m3, of the solids
+};
+
+/// formula:  v = I height sqrt(stress / density) / D
+/// Speed of the plate, m/s, at which the layer is compressed with the inertial number I = (v / height) D sqrt(density /
+/// stress), the rate of strain over the rate at which grains of size D fall into place under that stress.
+double plate_speed_at(double inertial_number, const Layer& layer, double stress);
 
 /// How far a specimen is from rest.
 struct RestState {
@@ -29,6 +44,9 @@ struct RestState {
   double unbalanced_ratio = 0.0;  ///< mean net force on a body over mean contact force
   double void_ratio = 0.0;
 };
+
+/// The plate's largest speed while it carries this stress (Pa, at most the target counts), m/s.
+double speed_cap_at(const PlateLoad& load, double stress);
 
 /// Stress on the plate, Pa, compression positive.
 double plate_stress(const Simulation& s, const PlateLoad& load);

@@ -47,7 +47,8 @@ struct SpecimenSettings {
   std::optional<double> expected_void_ratio;    ///< sets the number of grains; default by rubber content
   std::optional<double> generation_void_ratio;  ///< of the random fill; default: laboratory value by rubber content
   double generation_friction = 0.0;
-  double approach_speed = 0.05;  ///< m/s, largest speed of the plate before shear
+  double approach_speed = 0.05;             ///< m/s, largest speed of the plate before shear
+  double approach_inertial_number = 0.003;  ///< in branches the plate may go as fast as this, too
 };
 
 }  // namespace dem

@@ -70,6 +70,9 @@ TEST_F(PreparationStoreTest, IsSharedByCasesThatWouldArriveAtTheSameState) {
       [](auto& c) { c.gravel.shear_modulus = 80e6; },
       [](auto& c) { c.integration.local_damping = 0.3; },
       [](auto& c) { c.equilibrium.branch_force_ratio = 2e-3; },
+      [](auto& c) { c.equilibrium.branch_inertial_number = 1e-5; },
+      [](auto& c) { c.equilibrium.branch_hold_steps = 500; },
+      [](auto& c) { c.specimen.approach_inertial_number = 0.001; },
   };
   PreparationStore(folder_, any_case()).keep("fill", some_state(0.3));
   for (std::size_t k = 0; k < harmless.size(); ++k) {
