@@ -282,7 +282,7 @@ def draw(curves):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    size = {"figsize": (4.6 * len(curves), 15), "layout": "constrained", "squeeze": False, "sharex": True}
+    size = {"figsize": (4.6 * len(curves), 15), "layout": "constrained", "squeeze": False, "sharex": "col"}
     figure, axes = plt.subplots(len(PANELS), len(curves), **size)
     differences, rows = plt.subplots(len(PANELS), len(curves), **size)
     for column, (vrc, by_velocity) in enumerate(sorted(curves.items())):

@@ -53,7 +53,7 @@ struct ValueText {
     return number_or_quantity(**value, key.dimension);
   }
   std::optional<std::string> operator()(const QuantityOrWord& slot) const {
-    return *slot.value ? number_or_quantity(**slot.value, key.dimension) : quoted(slot.word);
+    return *slot.value ? number_or_quantity(**slot.value, key.dimension) : toml_quoted(slot.word);
   }
   std::optional<std::string> operator()(const int* value) const { return fmt::format("{}", *value); }
   std::optional<std::string> operator()(const std::optional<int>* value) const {

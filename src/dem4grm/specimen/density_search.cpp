@@ -31,7 +31,7 @@ struct Point {
 
 /// The axis x = m / (m + bend) with m the friction beyond the smallest, on which D_r is taken for a straight line. An
 /// infinite bend leaves the friction as it is.
-struct Axis {
+struct BentAxis {
   double smallest = 0.0, bend = 0.0;
   [[nodiscard]] double at(double friction) const {
     const double m = friction - smallest;
@@ -56,7 +56,7 @@ std::vector<Point> points_of(std::span<const Branch> done, double target) {
 }
 
 /// The axis that goes through both ends and the trial nearest to the target; through the first guess without a trial.
-Axis axis_of(std::span<const Branch> done, std::span<const Point> points, double target) {
+BentAxis axis_of(std::span<const Branch> done, std::span<const Point> points, double target) {
   const double smallest = done[0].friction, range = done[1].friction - smallest;
   const auto nearest = std::min_element(points.begin() + 2, points.end(), [](const Point& a, const Point& b) {
     return std::fabs(a.miss) < std::fabs(b.miss);
@@ -71,7 +71,7 @@ Axis axis_of(std::span<const Branch> done, std::span<const Point> points, double
 
 /// Where the curve ought to cross zero: between the loosest specimen that is too dense and the densest that is too loose.
 /// Scatter may have put them the wrong way round; then half-way.
-double crossing(std::span<const Point> points, const Axis& axis) {
+double crossing(std::span<const Point> points, const BentAxis& axis) {
   Point low = points[0], high = points[1];
   for (const Point& p : points) {
     if (p.miss > 0.0 && p.friction > low.friction) low = p;

@@ -27,7 +27,7 @@ normal_stress = "60 kPa"
 ShearSettings shear_of(const LoadedCase& loaded) { return std::get<DirectShearCase>(loaded.test).shear; }
 
 /// The message of a case that must be refused; its first line where only that counts.
-std::string refusal(const std::string& lines, const std::vector<Override>& options = {}) {
+std::string refusal_of_velocity(const std::string& lines, const std::vector<Override>& options = {}) {
   try {
     load(lines, options);
   } catch (const InputError& error) {
@@ -38,7 +38,7 @@ std::string refusal(const std::string& lines, const std::vector<Override>& optio
 }
 
 std::string headline(const std::string& lines, const std::vector<Override>& options = {}) {
-  const std::string message = refusal(lines, options);
+  const std::string message = refusal_of_velocity(lines, options);
   return message.substr(0, message.find('\n'));
 }
 
@@ -87,8 +87,9 @@ TEST(CaseVelocity, AnyOtherWordIsToldBothForms) {
   EXPECT_EQ(
       headline("", {{"shear.velocity", "quasi"}}),
       "--set shear.velocity=quasi: error: shear.velocity = \"quasi\"" + neither + "; did you mean \"quasi-static\"?");
-  EXPECT_NE(refusal("velocity = \"slow\"").find("or \"quasi-static\": chosen for inertial_number, unit mm/min"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal_of_velocity("velocity = \"slow\"").find("or \"quasi-static\": chosen for inertial_number, unit mm/min"),
+      std::string::npos);
 }
 
 TEST(CaseVelocity, NumbersHaveTheMessagesOfOrdinaryQuantities) {

@@ -45,7 +45,17 @@ class MicroStateFile : public ::testing::Test {
 
   test::TemporaryFolder folder_;
   std::filesystem::path path_;
-  Simulation early_ = test::run_mixture({}, 500), late_ = test::run_mixture({}, 1500);
+  const Simulation &early_ = early(), &late_ = late();
+
+ private:
+  static const Simulation& early() {
+    static const Simulation k_early = test::run_mixture({}, 500);
+    return k_early;
+  }
+  static const Simulation& late() {
+    static const Simulation k_late = test::run_mixture({}, 1500);
+    return k_late;
+  }
 };
 
 TEST_F(MicroStateFile, GivesTheBitsOfTheSimulation) {
