@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Stage: ball-ball contacts, eight rows at a time.
+#include <algorithm>
+
 #include "dem4grm/core/blocks.hpp"
 #include "dem4grm/core/registers.hpp"
 #include "dem4grm/engine/kernels/hertz_dispatch.hpp"
@@ -13,7 +15,8 @@ namespace {
 constexpr std::size_t k_rows_per_block = 1024;
 /// Parts of the rubber: more let a thread that is done help a slow one, and leave fewer contacts for the moment when
 /// their grains are in the cache.
-constexpr int k_parts_per_thread = 2;
+constexpr int k_parts_per_thread = 8;
+constexpr int k_short_part = 12;  // blocks
 
 /// Plain pointers to everything a row reads and writes.
 struct Rows {
@@ -295,6 +298,13 @@ void evaluate_rubber(Simulation& s, Share share) {
                  [&](std::size_t block, std::size_t, std::size_t) { evaluate_rubber_block(s, block, share); });
 }
 
+/// Blocks of one part. Short parts are lengthened, but not so far that a thread would have none.
+int part_length(int blocks, int threads) {
+  const auto share = [blocks](int parts) { return (blocks + parts - 1) / parts; };
+  if (threads == 1) return blocks;
+  return std::max(share(threads * k_parts_per_thread), std::min(k_short_part, share(threads)));
+}
+
 void evaluate_others(Simulation& s) {
   with_hertz_options(s.scene.contact, [&](auto options) { evaluate_other_rows<decltype(options)::value>(s); });
 }
@@ -311,9 +321,9 @@ void evaluate_ball_contacts(Simulation& s) {
 void evaluate_early_contacts(Simulation& s) {
   evaluate_others(s);
   if (s.rubber_batches.n_batches() == 0) return;
-  const int threads = omp_get_max_threads(), parts = threads == 1 ? 1 : threads * k_parts_per_thread;
-  s.rubber_batches.part_length = (s.balls.n_blocks + parts - 1) / parts;
-  if (parts > 1) evaluate_rubber(s, Share::early);
+  const int threads = omp_get_max_threads();
+  s.rubber_batches.part_length = part_length(s.balls.n_blocks, threads);
+  if (threads > 1) evaluate_rubber(s, Share::early);
 }
 
 void evaluate_waiting_contacts(Simulation& s, std::size_t block) { evaluate_rubber_block(s, block, Share::waiting); }
