@@ -52,7 +52,6 @@ def units(build, folder):
         if not names or not names[0].startswith(ANALYSED) or names[0].startswith(LEFT_OUT) or "state_hashes_w" in entry["command"]:
             continue
         if joined:
-            # That a source is included is what is done here on purpose, no finding.
             file = folder / (re.sub(r"\W", "_", str(file.relative_to(build))) + ".cpp")
             # Only for this line: to include a source is what joins it, and clang-tidy's bugprone-suspicious-include minds
             # that. Findings in the source itself are reported.

@@ -91,6 +91,34 @@ TEST(Threads, UnloadingRuleOneAndDashpots) {
   }
 }
 
+/// Unloading rules times kinds of dashpots, with a Hertz contact beside each bond: few grains and short, so that the
+/// address sanitizer, which leaves out the larger scenes, sees each of these kernels at work.
+TEST(Threads, EveryRuleInASmallBox) {
+  const ThreadGuard guard;
+  MixtureOptions o;
+  o.cells = {3, 3, 2};
+  for (const int rule : {0, 1}) {
+    for (int mode = 0; mode < 4; ++mode) {
+      o.contact = {rule, 0.2, 0.1, mode};
+      Scene scene = mixture_scene(o);
+      scene.bond.hertz_contact = true;
+      std::string expected;
+      for (const int threads : {1, 2, 3, 8}) {
+        omp_set_num_threads(threads);
+        Simulation s(scene);
+        s.set_time_step(1e-6);
+        ShearBox::set_velocities(s.walls, MovingHalf::lower, 0.5, -1.0);
+        run_steps(s, 250);
+        if (threads == 1) {
+          expected = s.state_hash();
+          EXPECT_GT(s.energy().dashpot, 0.0) << "rule " << rule << ", dashpots " << mode;
+        }
+        EXPECT_EQ(s.state_hash(), expected) << threads << " threads, rule " << rule << ", dashpots " << mode;
+      }
+    }
+  }
+}
+
 TEST(Observation, ChangesNothing) {
   const MixtureOptions o;
   Simulation watched(mixture_scene(o));

@@ -244,6 +244,13 @@ class Instructions(unittest.TestCase):
         self.assertEqual(code, 1)
         self.assertIn("'absent'", text)
 
+    def test_code_outside_its_namespace_is_found(self) -> None:
+        own = "int mine_first(void) { return 1; }\nstatic int helper(int x) { return x; }\nint mine_second(void) { return helper(2); }\n"
+        self.assertEqual(self.compiled(own, call=("own", "mine_", "FILE"))[0], 0)
+        code, text = self.compiled(own + "__attribute__((weak)) int shared(void) { return 3; }\n", call=("own", "mine_", "FILE"))
+        self.assertEqual(code, 1)
+        self.assertIn("part.o: shared", text)
+
     def test_a_missing_file_or_a_wrong_call_is_no_success(self) -> None:
         for code, words in ((2, ("fused", "no_such_file.o")), (64, ()), (64, ("lanes", "a.o"))):
             answer = subprocess.run([self.tool, *words], capture_output=True, text=True, check=False)

@@ -245,10 +245,9 @@ void Simulation::set_friction(const FrictionTable& table) {
   candidates_valid = false;  // the rows hold their friction
 }
 
-std::size_t prepare_partial_works(Simulation& s, std::size_t blocks) {
+void prepare_partial_works(Simulation& s, std::size_t blocks) {
   s.scratch_slip.assign(blocks, 0.0);
   s.scratch_dashpot.assign(blocks, 0.0);
-  return blocks;
 }
 
 void prepare_partial_reactions(Simulation& s, std::size_t n) { s.scratch_reactions.assign(n, WallReaction{}); }

@@ -206,9 +206,8 @@ void advance_rubber_grains(Simulation& s);
 void advance_clumps(Simulation& s);
 void move_walls(Simulation& s);
 
-/// Makes room for the works of so many blocks of a stage in scratch_slip and scratch_dashpot, all zero; returns their
-/// number.
-std::size_t prepare_partial_works(Simulation& s, std::size_t blocks);
+/// Makes room for the works (J) of so many blocks of a stage in scratch_slip and scratch_dashpot, all zero.
+void prepare_partial_works(Simulation& s, std::size_t blocks);
 /// The same for the forces on walls in scratch_reactions.
 void prepare_partial_reactions(Simulation& s, std::size_t n);
 

@@ -236,7 +236,8 @@ void evaluate_other_rows(Simulation& s) {
   const double dt = s.last_dt;
   const std::size_t first = static_cast<std::size_t>(s.rubber_batches.n_batches()) * k_contact_batch;
   const std::size_t n = s.contacts.n_pair_rows() - first;
-  const std::size_t blocks = prepare_partial_works(s, block_count(n, k_rows_per_block));
+  const std::size_t blocks = block_count(n, k_rows_per_block);
+  prepare_partial_works(s, blocks);
   double* const slip_of_block = s.scratch_slip.data();
   double* const dashpot_of_block = s.scratch_dashpot.data();
   for_each_block(n, k_rows_per_block, [&](std::size_t block, std::size_t begin, std::size_t end) {
