@@ -15,14 +15,14 @@
 #include <variant>
 #include <vector>
 
+#include "dem4grm/case_file/case_file.hpp"
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/kernel_target.hpp"
-#include "dem4grm/io/case_file.hpp"
-#include "dem4grm/io/checkpoint_file.hpp"
-#include "dem4grm/io/output_folder.hpp"
 #include "dem4grm/lab/dense_assembly.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/shear_velocity.hpp"
+#include "dem4grm/runs/checkpoint_file.hpp"
+#include "dem4grm/runs/output_folder.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/version.hpp"
 #include "dem4grm/walls/shear_box.hpp"

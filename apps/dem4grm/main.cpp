@@ -19,7 +19,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/kernel_target.hpp"
-#include "dem4grm/io/test_writer.hpp"
+#include "dem4grm/runs/test_writer.hpp"
 #include "dem4grm/version.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"

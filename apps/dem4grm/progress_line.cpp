@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "dem4grm/io/folder_lock.hpp"
+#include "dem4grm/runs/folder_lock.hpp"
 #include "terminal.hpp"
 
 namespace dem {

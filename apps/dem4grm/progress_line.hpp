@@ -5,8 +5,8 @@
 #include <chrono>
 #include <string>
 
-#include "dem4grm/io/remaining_time.hpp"
 #include "dem4grm/lab/observer.hpp"
+#include "dem4grm/runs/remaining_time.hpp"
 
 namespace dem {
 

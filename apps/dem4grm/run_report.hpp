@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <string>
 
-#include "dem4grm/io/json_text.hpp"
+#include "dem4grm/results/json_text.hpp"
 
 namespace dem {
 
 /// The main numbers of a summary as lines of text.
 std::string summary_lines(const JsonObject& summary);
 
-/// How even a specimen is, from the fields of homogeneity_fields (io/summary.hpp), as lines of text; empty without them.
+/// How even a specimen is, from the fields of homogeneity_fields (results/summary.hpp), as lines of text; empty without them.
 std::string homogeneity_lines(const JsonObject& fields);
 
 /// The same with the folder, the time it took and the next command.

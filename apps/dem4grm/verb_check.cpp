@@ -8,9 +8,9 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/quantity.hpp"
-#include "dem4grm/io/case_facts.hpp"
-#include "dem4grm/io/run_forecast.hpp"
 #include "dem4grm/laws/inertial_number.hpp"
+#include "dem4grm/runs/case_facts.hpp"
+#include "dem4grm/runs/run_forecast.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

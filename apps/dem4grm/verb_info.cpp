@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/io/output_folder.hpp"
-#include "dem4grm/io/results_file.hpp"
-#include "dem4grm/io/stored_grains.hpp"
-#include "dem4grm/io/summary.hpp"
+#include "dem4grm/results/results_file.hpp"
+#include "dem4grm/results/stored_grains.hpp"
+#include "dem4grm/results/summary.hpp"
+#include "dem4grm/runs/output_folder.hpp"
 #include "run_report.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"

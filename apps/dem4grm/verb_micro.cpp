@@ -12,9 +12,9 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/quantity.hpp"
-#include "dem4grm/io/micro_text.hpp"
-#include "dem4grm/io/output_file.hpp"
-#include "dem4grm/io/output_folder.hpp"
+#include "dem4grm/results/micro_text.hpp"
+#include "dem4grm/results/output_file.hpp"
+#include "dem4grm/runs/output_folder.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "dem4grm/io/output_file.hpp"
+#include "dem4grm/results/output_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

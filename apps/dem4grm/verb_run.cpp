@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "dem4grm/io/run_case.hpp"
+#include "dem4grm/runs/run_case.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
 #include "signals.hpp"

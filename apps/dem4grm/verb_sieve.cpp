@@ -7,8 +7,8 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/quantity.hpp"
-#include "dem4grm/io/output_file.hpp"
-#include "dem4grm/io/sieve_report.hpp"
+#include "dem4grm/results/output_file.hpp"
+#include "dem4grm/results/sieve_report.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/io/output_file.hpp"
 #include "dem4grm/report/verification_manual.hpp"
+#include "dem4grm/results/output_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 

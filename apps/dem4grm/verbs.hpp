@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "dem4grm/io/case_file.hpp"
+#include "dem4grm/case_file/case_file.hpp"
 
 namespace dem {
 

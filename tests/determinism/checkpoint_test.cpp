@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A simulation that was saved and loaded goes on with the bits of the one that was never interrupted.
 //
-// The scenes together use every branch of the kernels. Not tested here: files (tests/unit/io) and the stages of a test
+// The scenes together use every branch of the kernels. Not tested here: files (tests/unit/runs) and the stages of a test
 // (tests/lab).
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -12,9 +12,9 @@
 #include <functional>
 #include <map>
 
-#include "dem4grm/io/checkpoint_file.hpp"
-#include "dem4grm/io/hdf5_handle.hpp"
-#include "dem4grm/io/run_case.hpp"
+#include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/runs/checkpoint_file.hpp"
+#include "dem4grm/runs/run_case.hpp"
 #include "support/command_line.hpp"
 
 namespace dem {

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "dem4grm/io/folder_lock.hpp"
+#include "dem4grm/runs/folder_lock.hpp"
 #include "support/command_line.hpp"
 
 namespace dem {

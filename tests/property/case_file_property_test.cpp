@@ -12,12 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "dem4grm/case_file/case_file.hpp"
+#include "dem4grm/case_file/case_schema.hpp"
+#include "dem4grm/case_file/grading_file.hpp"
+#include "dem4grm/case_file/toml_scan.hpp"
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/io/case_file.hpp"
-#include "dem4grm/io/case_schema.hpp"
-#include "dem4grm/io/grading_file.hpp"
-#include "dem4grm/io/toml_scan.hpp"
-#include "unit/io/case_bits.hpp"
+#include "unit/case_file/case_bits.hpp"
 
 namespace dem {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "dem4grm/io/json_text.hpp"
+#include "dem4grm/results/json_text.hpp"
 #include "support/run_program.hpp"
 
 namespace dem::test {

@@ -16,7 +16,7 @@
 
 namespace dem {
 
-/// What an analysis reads: from a simulation here, from a stored state in io.
+/// What an analysis reads: from a simulation here, from a stored state in results.
 struct MicroState {
   ContactNetwork network;
   RubberState rubber;

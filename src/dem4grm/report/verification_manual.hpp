@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "dem4grm/io/json_text.hpp"
+#include "dem4grm/results/json_text.hpp"
 #include "dem4grm/verify/runner.hpp"
 
 namespace dem {

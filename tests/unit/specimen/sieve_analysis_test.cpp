@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Simulated sieve analysis: known grains against sizes and volumes in closed form, shares against hand counts, drawn
 // specimens of full and of tiny size against their gradings.
-// Not tested here: the file that a state comes from (tests/unit/io/sieve_report_test.cpp).
+// Not tested here: the file that a state comes from (tests/unit/results/sieve_report_test.cpp).
 #include "dem4grm/specimen/sieve_analysis.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "dem4grm/case_file/case_file.hpp"
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
-#include "dem4grm/io/case_file.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "support/drawn_packing.hpp"
 

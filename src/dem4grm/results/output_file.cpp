@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/results/output_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "dem4grm/core/error.hpp"
+
+namespace dem {
+namespace {
+
+constexpr int k_file_mode = 0644;
+
+/// Writes everything; false with errno set when it cannot.
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+/// Some file systems (pipes, /dev/stdout) cannot sync; that is no failure to write.
+bool sync_descriptor(int descriptor) {
+  return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+}
+
+/// Writes text and closes; on failure removes the file and throws.
+void fill_and_close(int descriptor, const std::filesystem::path& path, std::string_view text) {
+  bool is_good = write_all(descriptor, text) && sync_descriptor(descriptor);
+  int reason = errno;
+  if (::close(descriptor) != 0 && is_good) {
+    is_good = false;
+    reason = errno;
+  }
+  if (is_good) return;
+  ::unlink(path.c_str());
+  errno = reason;
+  throw_io_error(path, "cannot be written");
+}
+
+void rename_draft(const std::filesystem::path& draft, const std::filesystem::path& path) {
+  if (::rename(draft.c_str(), path.c_str()) == 0) return;
+  const int reason = errno;
+  ::unlink(draft.c_str());
+  errno = reason;
+  throw_io_error(path, "cannot be replaced");
+}
+
+}  // namespace
+
+void throw_io_error(const std::filesystem::path& path, std::string_view what) {
+  const int reason = errno == 0 ? EIO : errno;
+  throw IoError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(reason)));
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view text) {
+  std::filesystem::path draft = path;
+  draft += ".tmp";
+  const int descriptor = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, k_file_mode);
+  if (descriptor < 0) throw_io_error(path, "cannot be written");
+  fill_and_close(descriptor, draft, text);
+  rename_draft(draft, path);
+}
+
+void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path) {
+  const int descriptor = ::open(draft.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool is_synced = descriptor >= 0 && sync_descriptor(descriptor);
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!is_synced) {
+    ::unlink(draft.c_str());
+    errno = reason;
+    throw_io_error(path, "cannot be written");
+  }
+  rename_draft(draft, path);
+}
+
+void create_file(const std::filesystem::path& path, std::string_view text) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, k_file_mode);
+  if (descriptor < 0 && errno == EEXIST) {
+    throw Error(ExitCode::usage, fmt::format("{}: is there already; remove it or choose another name", path.string()));
+  }
+  if (descriptor < 0) throw_io_error(path, "cannot be written");
+  fill_and_close(descriptor, path, text);
+}
+
+AppendedFile::AppendedFile(std::filesystem::path path) : path_(std::move(path)) {
+  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, k_file_mode);
+  if (descriptor_ < 0) throw_io_error(path_, "cannot be written");
+}
+
+AppendedFile::~AppendedFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void AppendedFile::append(std::string_view text) {
+  if (!write_all(descriptor_, text)) throw_io_error(path_, "cannot be written");
+}
+
+void AppendedFile::sync() {
+  if (!sync_descriptor(descriptor_)) throw_io_error(path_, "cannot be written");
+}
+
+void append_number(std::string& text, double value) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  text.append(digits.data(), end.ptr);
+}
+
+}  // namespace dem

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/results/specimen_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dem4grm/case_file/case_file.hpp"
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/results/file_names.hpp"
+#include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/results/state_group.hpp"
+
+namespace dem {
+namespace {
+
+constexpr const char* k_state = "state";
+
+/// The case without what may differ between a specimen and a test on it.
+std::string specimen_text(DirectShearCase test) {
+  const double stress = test.shear.normal_stress;
+  test.name = DirectShearCase{}.name;
+  test.shear = {};
+  test.shear.normal_stress = stress;
+  test.recording = {};
+  test.servo.shear_speed_cap = ServoSettings{}.shear_speed_cap;
+  return resolved_toml(test);
+}
+
+/// The settings of a resolved case with their sections, without comments: "shear.normal_stress = "60 kPa"".
+std::vector<std::string> settings_of(const std::string& text) {
+  std::vector<std::string> settings;
+  std::istringstream in(text);
+  std::string section;
+  for (std::string line; std::getline(in, line);) {
+    line = line.substr(0, line.find("  # "));
+    if (line.starts_with('[') && line.ends_with(']')) {
+      section = line.substr(1, line.size() - 2) + '.';
+    } else if (!line.empty() && !line.starts_with('#')) {
+      settings.push_back((line.find(" = ") == std::string::npos ? "" : section) + line);
+    }
+  }
+  return settings;
+}
+
+/// One sentence for each setting that only one of the two has.
+std::vector<std::string> differences(const std::string& stored, const std::string& wanted) {
+  const std::vector<std::string> a = settings_of(stored), b = settings_of(wanted);
+  std::vector<std::string> out;
+  for (const std::string& line : a) {
+    if (std::find(b.begin(), b.end(), line) == b.end()) out.push_back("made with  " + line);
+  }
+  for (const std::string& line : b) {
+    if (std::find(a.begin(), a.end(), line) == a.end()) out.push_back("the case has  " + line);
+  }
+  return out;
+}
+
+void check_origin(const std::filesystem::path& path, const std::string& stored_case, const DirectShearCase& test) {
+  const LoadedCase stored = parse_case(stored_case, path);
+  const auto* made_for = std::get_if<DirectShearCase>(&stored.test);
+  if (made_for == nullptr) throw IoError("holds no specimen of a shear test");
+  const std::string made = specimen_text(*made_for), wanted = specimen_text(test);
+  if (made == wanted) return;
+  throw InputError(fmt::format(
+      "{}: the specimen was made for another case; only the name, the record, servo.shear_speed_cap and the "
+      "shear apart from its normal stress may differ:\n  {}",
+      path.string(), fmt::join(differences(made, wanted), "\n  ")));
+}
+
+}  // namespace
+
+void add_specimen_state(const std::filesystem::path& path, const StateArchive& state) {
+  hdf5::Handle file = hdf5::open_file(path, hdf5::Access::write);
+  const hdf5::Handle group = hdf5::create_group(file, k_state);
+  hdf5::write_attribute(group, "format", k_state_format);
+  write_state(group, state);
+  file.close(path.string() + ": cannot be written");
+}
+
+StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShearCase& test) {
+  std::error_code ignored;
+  const std::filesystem::path path =
+      std::filesystem::is_directory(given, ignored) ? given / file_name::k_specimen : given;
+  if (!std::filesystem::exists(path, ignored)) {
+    throw MissingFileError(fmt::format("{}: no such file; dem4grm specimen makes one", path.string()));
+  }
+  try {
+    const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+    const std::vector<std::string> groups = hdf5::names_in(file);
+    if (std::find(groups.begin(), groups.end(), k_state) == groups.end()) {
+      throw IoError("holds no complete specimen to start from");
+    }
+    const hdf5::Handle meta = hdf5::open_group(file, "meta"), state = hdf5::open_group(file, k_state);
+    const double format = hdf5::read_number_attribute(state, "format");
+    if (format != static_cast<double>(k_state_format)) {
+      throw IoError(fmt::format("its state has format {}, this program reads {}", format, k_state_format));
+    }
+    check_origin(path, hdf5::read_text(meta, "resolved_toml"), test);
+    return StoredSpecimen{read_state(state), hdf5::read_text_attribute(meta, "commit")};
+  } catch (const IoError& e) {
+    const std::string shown = path.string();
+    if (std::string_view(e.what()).starts_with(shown)) throw;
+    throw IoError(fmt::format("{}: {}", shown, e.what()));
+  }
+}
+
+}  // namespace dem

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/runs/output_folder.hpp"
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "dem4grm/results/output_file.hpp"
+
+namespace dem {
+namespace {
+
+/// What a run writes anew; the log is kept.
+constexpr std::array k_results_of_run{file_name::k_summary,    file_name::k_status,           file_name::k_shear,
+                                      file_name::k_grain,      file_name::k_results,          file_name::k_specimen,
+                                      file_name::k_checkpoint, file_name::k_specimen_summary, file_name::k_micro};
+
+std::optional<std::string> content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return std::nullopt;
+  return std::string((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+}
+
+bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::symlink_status(path, error);
+  return status.type() != std::filesystem::file_type::not_found && status.type() != std::filesystem::file_type::none;
+}
+
+[[noreturn]] void throw_other_case(const std::filesystem::path& path) {
+  throw Error(ExitCode::usage,
+              fmt::format("{} holds another case; choose another folder with -o, or remove this one", path.string()));
+}
+
+void make_folder(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw IoError(fmt::format("{}: the folder cannot be made: {}", path.string(), error.message()));
+}
+
+}  // namespace
+
+FolderContent look_into(const std::filesystem::path& folder, const LoadedCase& loaded) {
+  std::error_code error;
+  const auto status = std::filesystem::status(folder, error);
+  if (status.type() == std::filesystem::file_type::not_found) return FolderContent::nothing;
+  if (status.type() != std::filesystem::file_type::directory) {
+    throw IoError(fmt::format("{}: is no folder{}", folder.string(), error ? ": " + error.message() : ""));
+  }
+  const std::optional<std::string> resolved = content_of(folder / file_name::k_resolved);
+  if (resolved) {
+    if (*resolved != loaded.resolved_toml) return FolderContent::other_case;
+    return is_there(folder / file_name::k_summary) ? FolderContent::complete : FolderContent::unfinished;
+  }
+  // Files of our names without a case beside them are not ours to overwrite; the case itself may lie there.
+  for (const char* name : k_results_of_run) {
+    if (is_there(folder / name)) return FolderContent::other_case;
+  }
+  const std::optional<std::string> source = content_of(folder / file_name::k_case);
+  return !source || *source == loaded.source_text ? FolderContent::nothing : FolderContent::other_case;
+}
+
+std::filesystem::path default_folder(const std::string& case_name) {
+  std::string name = case_name.empty() ? "case" : case_name;
+  for (char& c : name) {
+    const bool is_usual = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+                          c == '_' || c == '.' || c == '+';
+    if (!is_usual) c = '_';
+  }
+  if (name.front() == '.') name.front() = '_';
+  return std::filesystem::path("runs") / name;
+}
+
+OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded) : path_(std::move(path)) {
+  if (look_into(path_, loaded) == FolderContent::other_case) throw_other_case(path_);
+  make_folder(path_);
+  lock_ = std::make_unique<FolderLock>(path_);
+  // Another process may have come and gone between the first look and the lock.
+  found_ = look_into(path_, loaded);
+  if (found_ == FolderContent::other_case) throw_other_case(path_);
+  if (found_ == FolderContent::complete) return;
+  has_checkpoint_ = found_ == FolderContent::unfinished && is_there(file(file_name::k_checkpoint));
+  if (has_checkpoint_) return;
+  for (const char* name : k_results_of_run) {
+    std::error_code error;
+    std::filesystem::remove(file(name), error);
+    if (error) throw IoError(fmt::format("{}: cannot be removed: {}", file(name).string(), error.message()));
+  }
+  replace_file(file(file_name::k_resolved), loaded.resolved_toml);
+  replace_file(file(file_name::k_case), loaded.source_text);
+}
+
+}  // namespace dem

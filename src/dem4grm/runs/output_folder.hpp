@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The folder of one run, and what it holds before.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "dem4grm/case_file/case_file.hpp"
+#include "dem4grm/results/file_names.hpp"
+#include "dem4grm/runs/folder_lock.hpp"
+
+namespace dem {
+
+enum class FolderContent {
+  nothing,     ///< no folder, or none of our files in it
+  unfinished,  ///< the same case, begun and not finished
+  complete,    ///< the same case, finished
+  other_case,
+};
+
+/// Looks into a folder without touching it. Throws IoError when it cannot be looked into.
+FolderContent look_into(const std::filesystem::path& folder, const LoadedCase& loaded);
+
+/// "runs/<case name>", with every character that is unusual in a file name replaced.
+std::filesystem::path default_folder(const std::string& case_name);
+
+/// A folder that belongs to this process until the object goes.
+class OutputFolder {
+ public:
+  /// Makes the folder, takes its lock, removes what an unfinished run without a checkpoint left, writes case.toml and
+  /// resolved.toml.
+  /// Throws FolderInUseError, IoError, and Error with ExitCode::usage when it holds another case.
+  OutputFolder(std::filesystem::path path, const LoadedCase& loaded);
+
+  [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// What the folder held when the lock was taken; `complete` means that nothing was touched.
+  [[nodiscard]] FolderContent found() const { return found_; }
+  /// True when an unfinished run left a checkpoint; then its other files are there too.
+  [[nodiscard]] bool has_checkpoint() const { return has_checkpoint_; }
+  [[nodiscard]] const std::string& lock_note() const { return lock_->note(); }
+
+ private:
+  std::filesystem::path path_;
+  std::unique_ptr<FolderLock> lock_;
+  FolderContent found_ = FolderContent::nothing;
+  bool has_checkpoint_ = false;
+};
+
+}  // namespace dem

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/runs/preparation_store.hpp"
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "dem4grm/case_file/case_file.hpp"
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/state_hash.hpp"
+#include "dem4grm/results/output_file.hpp"
+#include "dem4grm/runs/checkpoint_file.hpp"
+#include "dem4grm/runs/folder_lock.hpp"
+
+namespace dem {
+namespace {
+
+constexpr std::size_t k_digits = 12;  // of the fingerprint; the whole text is compared too
+
+std::string fingerprint(const std::string& bytes) {
+  StateHash hash;
+  hash.add_bytes(bytes.data(), bytes.size());
+  return hash.text();
+}
+
+}  // namespace
+
+std::string preparation_text(const DirectShearCase& test) {
+  DirectShearCase kept = test;
+  const SpecimenSettings plain;
+  kept.name = DirectShearCase{}.name;
+  kept.specimen.relative_density = k_default_relative_density;
+  kept.specimen.preparation_friction.reset();
+  kept.specimen.relative_density_tolerance = plain.relative_density_tolerance;
+  kept.specimen.smallest_friction = plain.smallest_friction;
+  kept.specimen.largest_friction = plain.largest_friction;
+  kept.specimen.branch_stress_ratio = plain.branch_stress_ratio;
+  kept.specimen.load_steps.clear();
+  kept.servo.shear_speed_cap = ServoSettings{}.shear_speed_cap;
+  kept.shear = {};
+  kept.recording = {};
+  return resolved_toml(kept);
+}
+
+std::string program_fingerprint() {
+  std::ifstream program("/proc/self/exe", std::ios::binary);
+  if (!program) return {};
+  return fingerprint(std::string(std::istreambuf_iterator<char>(program), {}));
+}
+
+PreparationStore::PreparationStore(const std::filesystem::path& folder, const DirectShearCase& test,
+                                   const std::string& program)
+    : text_(preparation_text(test)), has_program_(!program.empty()) {
+  folder_ = folder / fingerprint(text_).substr(0, k_digits);
+  text_ += "# program " + program + "\n";
+}
+
+std::filesystem::path PreparationStore::file_of(const std::string& name) const { return folder_ / (name + ".h5"); }
+
+std::optional<StateArchive> PreparationStore::fetch(const std::string& name) const {
+  std::error_code error;
+  if (!has_program_ || !std::filesystem::exists(file_of(name), error)) return std::nullopt;
+  try {
+    StoredCheckpoint stored = read_checkpoint(file_of(name));
+    if (stored.facts.resolved_toml != text_) return std::nullopt;
+    return std::move(stored.state);
+  } catch (const IoError&) {
+    return std::nullopt;  // damaged or of another format: it is made again, and written over
+  }
+}
+
+void PreparationStore::keep(const std::string& name, const StateArchive& state) const {
+  std::error_code error;
+  std::filesystem::create_directories(folder_, error);
+  if (error) throw IoError(fmt::format("{}: the folder cannot be made: {}", folder_.string(), error.message()));
+  // A draft of its own: another process, here or on another machine, may be keeping the same state.
+  const std::filesystem::path draft = folder_ / fmt::format("{}-{}-{}.part", name, host_name(), ::getpid());
+  write_checkpoint(draft, state, {text_, 0.0, {}});
+  publish_file(draft, file_of(name));
+}
+
+}  // namespace dem

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dem4grm/runs/run_case.hpp"
+
+#include <fmt/format.h>
+
+#include <new>
+#include <optional>
+
+#include "dem4grm/results/specimen_file.hpp"
+#include "dem4grm/runs/checkpoint_file.hpp"
+#include "dem4grm/version.hpp"
+
+namespace dem {
+namespace {
+
+/// What a folder says that holds all that is wanted of it.
+std::optional<RunOutcome> outcome_of_complete(const RunSettings& settings, FolderContent content) {
+  if (content == FolderContent::complete)
+    return RunOutcome{read_json_file(settings.folder / file_name::k_summary), true};
+  const std::filesystem::path specimen = settings.folder / file_name::k_specimen_summary;
+  const bool is_ready = content == FolderContent::unfinished && std::filesystem::exists(specimen);
+  if (!settings.links.is_specimen_only || !is_ready) return std::nullopt;
+  return RunOutcome{read_json_file(specimen), true};
+}
+
+JsonObject run_test(const TestCase& test, TestWriter& writer, StateArchive* from) {
+  if (const auto* shear = std::get_if<DirectShearCase>(&test)) {
+    const DirectShearResult result = run_direct_shear(*shear, writer, from);
+    return writer.wants_shear() ? writer.finish(result) : writer.finish_specimen(result);
+  }
+  return writer.finish(run_grain_compression(std::get<GrainCompressionCase>(test), writer));
+}
+
+/// Throws Error with ExitCode::usage when a test without a specimen is asked for one.
+void check_settings(const LoadedCase& loaded, const RunSettings& settings) {
+  if (std::holds_alternative<DirectShearCase>(loaded.test)) return;
+  if (settings.links.is_specimen_only || !settings.specimen.empty() || !settings.links.store.empty()) {
+    throw Error(ExitCode::usage,
+                fmt::format("{} is no direct shear test: it has no specimen to prepare, to start from or to keep",
+                            case_name(loaded.test)));
+  }
+}
+
+/// The specimen that the user names, when the run begins at its beginning.
+std::optional<StoredSpecimen> chosen_specimen(const LoadedCase& loaded, const RunSettings& settings) {
+  if (settings.specimen.empty()) return std::nullopt;
+  return read_specimen(settings.specimen, std::get<DirectShearCase>(loaded.test));
+}
+
+std::string note_about(const StoredSpecimen& specimen, const std::filesystem::path& path) {
+  std::string text = fmt::format("starts from the specimen of {}", path.string());
+  if (specimen.commit != k_commit) {
+    text += fmt::format("; it was made by commit {}, so results may not be those of one program", specimen.commit);
+  }
+  return text;
+}
+
+std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
+  if (!checkpoint) return "the folder holds an unfinished run of this case without a checkpoint; it starts anew";
+  std::string text =
+      fmt::format("goes on from the checkpoint after {:.0f} s of wall time", checkpoint->facts.wall_time);
+  if (checkpoint->facts.commit != k_commit) {
+    text += fmt::format("; it was written by commit {}, so results may not be those of one program",
+                        checkpoint->facts.commit);
+  }
+  return text;
+}
+
+}  // namespace
+
+RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
+  check_settings(loaded, settings);
+  // A finished folder may be read-only and needs no lock.
+  if (auto outcome = outcome_of_complete(settings, look_into(settings.folder, loaded))) return *outcome;
+  // Before anything is written: a specimen of another case must not leave a folder behind.
+  std::optional<StoredSpecimen> start = chosen_specimen(loaded, settings);
+  const OutputFolder folder(settings.folder, loaded);
+  if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
+  std::optional<StoredCheckpoint> checkpoint;
+  if (folder.has_checkpoint()) checkpoint = read_checkpoint(folder.file(file_name::k_checkpoint));
+  // A named specimen saves what is left of a preparation; shear that has begun goes on.
+  if (start && checkpoint && !checkpoint->state.has_group("shear")) checkpoint.reset();
+  StateArchive* from = checkpoint ? &checkpoint->state : start ? &start->state : nullptr;
+  TestWriter writer(folder, loaded, settings.threads, settings.links, checkpoint ? checkpoint->facts.wall_time : 0.0);
+  if (!folder.lock_note().empty()) writer.note(folder.lock_note());
+  const bool starts_from_specimen = start && !checkpoint;
+  if (starts_from_specimen) writer.note(note_about(*start, settings.specimen));
+  if (start && checkpoint) writer.note("shear has begun already; the specimen that was named is not used");
+  if (!starts_from_specimen && folder.found() == FolderContent::unfinished) writer.note(note_about(checkpoint));
+  try {
+    return {run_test(loaded.test, writer, from), false};
+  } catch (const StoppedOnRequest& stop) {
+    writer.give_up(RunState::stopped, stop.what());
+    throw;
+  } catch (const std::bad_alloc&) {
+    writer.give_up(RunState::failed, "out of memory");
+    throw;
+  } catch (const std::exception& e) {
+    writer.give_up(RunState::failed, e.what());
+    throw;
+  }
+}
+
+}  // namespace dem

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// checkpoint.h5: what is written is read again to the last bit; a file that is damaged or foreign is refused by name.
+#include "dem4grm/runs/checkpoint_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/version.hpp"
+#include "support/run_program.hpp"
+
+namespace dem {
+namespace {
+
+/// A value of every kind that a state may hold.
+struct Sample {
+  double x = 0.1, big = std::numeric_limits<double>::max(), minus_zero = -0.0;
+  std::int64_t n = -(std::int64_t{1} << 62);
+  bool flag = true;
+  std::string text = "limited by: grain";
+  Vec3 v{1e-300, -2.5, 3.0};
+  Quaternion q{0.5, -0.5, 0.5, -0.5};
+  std::vector<double> none, list{1.0 / 3.0, -7.0};
+  std::vector<std::uint64_t> keys{0, (std::uint64_t{5} << 32U) | 7U};
+  AlignedArray<double> aligned{3};
+
+  Sample() { aligned[1] = 4.25; }
+
+  void exchange(StateArchive& archive) {
+    archive.group("outer", [&] {
+      archive.exchange("x", x);
+      archive.exchange("big", big);
+      archive.exchange("minus_zero", minus_zero);
+      archive.group("inner", [&] { archive.exchange("n", n); });
+      archive.exchange("flag", flag);
+      archive.exchange("text", text);
+    });
+    archive.exchange("v", v);
+    archive.exchange("q", q);
+    archive.exchange("none", none);
+    archive.exchange("list", list);
+    archive.exchange("keys", keys);
+    archive.exchange("aligned", aligned);
+  }
+};
+
+/// Every value and every length other than in a new one.
+Sample other_sample() {
+  Sample s;
+  s.x = s.big = 0.0;
+  s.minus_zero = 1.0;
+  s.n = 0;
+  s.flag = false;
+  s.text.clear();
+  s.v = {};
+  s.q = {};
+  s.none = {1.0};
+  s.list.clear();
+  s.keys.clear();
+  s.aligned.resize(0);
+  return s;
+}
+
+class CheckpointFile : public ::testing::Test {
+ protected:
+  test::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "checkpoint.h5";
+
+  static StateArchive some_state() {
+    StateArchive archive;
+    Sample().exchange(archive);
+    return archive;
+  }
+};
+
+TEST_F(CheckpointFile, ReadsWhatWasWritten) {
+  write_checkpoint(path_, some_state(), {"name = \"a\"\n", 12.5, {}});
+  StoredCheckpoint stored = read_checkpoint(path_);
+  EXPECT_EQ(stored.facts.resolved_toml, "name = \"a\"\n");
+  EXPECT_EQ(stored.facts.wall_time, 12.5);
+  EXPECT_EQ(stored.facts.commit, k_commit);
+  ASSERT_TRUE(stored.state.has_group("outer"));
+  EXPECT_FALSE(stored.state.has_group("out"));
+  std::vector<double> asked_first;
+  stored.state.exchange("list", asked_first);  // in any order
+  EXPECT_EQ(asked_first, (std::vector<double>{1.0 / 3.0, -7.0}));
+  Sample got = other_sample();
+  got.exchange(stored.state);
+  EXPECT_EQ(got.x, 0.1);
+  EXPECT_EQ(got.big, std::numeric_limits<double>::max());
+  EXPECT_TRUE(got.minus_zero == 0.0 && std::signbit(got.minus_zero));
+  EXPECT_EQ(got.n, -(std::int64_t{1} << 62));
+  EXPECT_TRUE(got.flag);
+  EXPECT_EQ(got.text, "limited by: grain");
+  EXPECT_EQ(got.v.x, 1e-300);
+  EXPECT_EQ(got.v.y, -2.5);
+  EXPECT_EQ(got.q.z, -0.5);
+  EXPECT_TRUE(got.none.empty());
+  EXPECT_EQ(got.list, (std::vector<double>{1.0 / 3.0, -7.0}));
+  EXPECT_EQ(got.keys, (std::vector<std::uint64_t>{0, (std::uint64_t{5} << 32U) | 7U}));
+  ASSERT_EQ(got.aligned.size(), 3U);
+  EXPECT_EQ(got.aligned[1], 4.25);
+}
+
+TEST_F(CheckpointFile, TypesAndLengthsAreHeld) {
+  StateArchive a(some_state().entries());
+  std::string wrong_type;
+  EXPECT_THROW(a.exchange("v", wrong_type), IoError);
+  double scalar = 0.0;
+  EXPECT_THROW(a.exchange("list", scalar), IoError);
+  EXPECT_THROW(a.exchange("not there", scalar), IoError);
+}
+
+TEST_F(CheckpointFile, NewOneReplacesTheOldAsAWhole) {
+  write_checkpoint(path_, some_state(), {"old", 1.0, {}});
+  write_checkpoint(path_, some_state(), {"new", 2.0, {}});
+  EXPECT_EQ(read_checkpoint(path_).facts.resolved_toml, "new");
+  EXPECT_FALSE(std::filesystem::exists(path_.string() + ".tmp"));
+}
+
+TEST_F(CheckpointFile, OldOneStaysWhenTheNewOneCannotBeWritten) {
+  write_checkpoint(path_, some_state(), {"old", 1.0, {}});
+  std::filesystem::create_directory(path_.string() + ".tmp");
+  EXPECT_THROW(write_checkpoint(path_, some_state(), {"new", 2.0, {}}), IoError);
+  EXPECT_EQ(read_checkpoint(path_).facts.resolved_toml, "old");
+}
+
+TEST_F(CheckpointFile, DamageIsNamedWithTheFile) {
+  write_checkpoint(path_, some_state(), {"case", 1.0, {}});
+  const auto size = std::filesystem::file_size(path_);
+  for (const auto part : {std::uintmax_t{0}, size / 3, size - 1}) {
+    std::filesystem::copy_file(path_, folder_.path() / "part.h5", std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(folder_.path() / "part.h5", part);
+    try {
+      read_checkpoint(folder_.path() / "part.h5");
+      FAIL() << "read " << part << " of " << size << " bytes";
+    } catch (const IoError& e) {
+      EXPECT_NE(std::string(e.what()).find("part.h5"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("remove the file"), std::string::npos) << e.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dem
