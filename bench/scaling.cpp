@@ -58,7 +58,7 @@ void measure(dem::DirectShearCase test, double scale, int steps) {
 
 int main(int argc, char** argv) {
   return bench::run_benchmark(argc, "bench_scaling CASE [steps]", [&] {
-    const auto test = std::get<dem::DirectShearCase>(dem::load_case(argv[1]).test);
+    const auto test = bench::case_of(argv[1]);
     fmt::print("{},volume,warm_us,warm_ns_per_ball,cold_us,cold_ns_per_ball,bytes_per_ball\n", bench::common_columns());
     for (const double scale : {0.5, 1.0, 2.0}) measure(test, scale, bench::argument(argc, argv, 2, 50));
     return 0;

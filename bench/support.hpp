@@ -92,11 +92,23 @@ inline Loaded assembly_of(const dem::DirectShearCase& test) {
   return out;
 }
 
-/// A stored specimen of a folder, an assembly of a case file.
-inline Loaded specimen_of(const std::filesystem::path& source) {
-  return std::filesystem::is_directory(source)
-             ? stored_specimen(source)
-             : assembly_of(std::get<dem::DirectShearCase>(dem::load_case(source).test));
+/// "case.toml,specimen.rubber_content=1,shear.normal_stress=100 kPa": a case file, and values in place of its own.
+inline dem::DirectShearCase case_of(const std::string& source) {
+  std::vector<dem::Override> changes;
+  std::size_t comma = source.find(',');
+  const std::string file = source.substr(0, comma);
+  while (comma != std::string::npos) {
+    const std::size_t next = source.find(',', comma + 1), equals = source.find('=', comma);
+    if (equals >= next) throw dem::InputError(source + ": after a comma stands key=value");
+    changes.push_back({source.substr(comma + 1, equals - comma - 1), source.substr(equals + 1, next - equals - 1)});
+    comma = next;
+  }
+  return std::get<dem::DirectShearCase>(dem::load_case(file, changes).test);
+}
+
+/// A stored specimen of a folder, an assembly of a case.
+inline Loaded specimen_of(const std::string& source) {
+  return std::filesystem::is_directory(source) ? stored_specimen(source) : assembly_of(case_of(source));
 }
 
 /// The walls as they move in the shear stage; the test is one whose velocity was chosen when it was loaded.

@@ -13,17 +13,18 @@ set -euo pipefail
 build_packages=(
   g++ cmake ninja-build make pkg-config git ca-certificates
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  libhdf5-dev libxxhash-dev libeigen3-dev
+  libhdf5-dev libxxhash-dev libeigen3-dev libboost-dev
 )
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
-# see docs/decisions/0003-thread-sanitizer.md. The last line compiles and runs the engine for 64-bit Arm,
-# see docs/decisions/0017-processor-targets.md.
+# see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,
+# see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
   clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
   python3 python3-numpy python3-h5py python3-matplotlib
   g++-aarch64-linux-gnu qemu-user
+  slurm-wlm munge
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.

@@ -104,7 +104,7 @@ class Job:
     def command(self, program, folder):
         out = [program, "specimen", ROOT / self.case, "-q", "-j", str(self.threads), "-o", folder / self.folder]
         if self.case.startswith("cases/paper"):
-            return out + ["--store", folder / "store"]
+            out += ["--store", folder / "store"]
         values = {"specimen.rubber_content": str(self.vrc / 100), "shear.normal_stress": f"{self.stress} kPa"}
         for name, value in {**values, **self.settings}.items():
             out += ["--set", f"{name}={value}"]
@@ -128,8 +128,7 @@ def all_jobs():
                 jobs.append(Job("density", vrc, stress, f"seed {seed}", {"seed": str(seed)}))
     for vrc in (0, 100):  # in this order: each stress begins with the states of the one before
         for stress in STRESSES:
-            case = f"cases/paper/vrc{vrc:03d}-{stress:03d}kPa.toml"
-            jobs.append(Job("full", vrc, stress, "full size", {}, case, threads=2))
+            jobs.append(Job("full", vrc, stress, "full size", {}, "cases/paper/direct-shear.toml", threads=2))
     return jobs
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIGINT and SIGTERM ask for an end; the second one ends at once.
+// SIGINT and SIGTERM ask for an end; another one ends at once, unless it comes so soon that it is of the same request.
 #pragma once
 
 #include <csignal>

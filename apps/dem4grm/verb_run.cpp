@@ -2,6 +2,7 @@
 // dem4grm run and dem4grm specimen: a case into its output folder, to its end or until shear begins.
 #include <omp.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include <fmt/format.h>
@@ -32,6 +33,12 @@ Loudness loudness_of(const RunOptions& options) {
   return options.is_verbose ? Loudness::verbose : Loudness::normal;
 }
 
+/// Slurm keeps the number of a job, and of each element of an array, when it puts it back into the queue.
+std::string batch_job() {
+  const char* job = std::getenv("SLURM_JOB_ID");
+  return job == nullptr ? std::string() : fmt::format("slurm {}", job);
+}
+
 void run(const RunOptions& options) {
   const std::vector<Override> overrides = overrides_from(options.settings);
   const LoadedCase loaded = load_case(options.case_path, overrides);
@@ -51,6 +58,7 @@ void run(const RunOptions& options) {
   settings.folder = folder;
   settings.threads = threads;
   settings.specimen = options.specimen;
+  settings.job = batch_job();
   settings.links.listener = &listener;
   settings.links.stop_flag = &stop_requested;
   settings.links.store = options.store;

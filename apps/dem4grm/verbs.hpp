@@ -18,6 +18,7 @@ void add_info(CLI::App& app);
 void add_sieve(CLI::App& app);
 void add_micro(CLI::App& app);
 void add_verify(CLI::App& app);
+void add_campaign(CLI::App& app);
 
 /// Adds --set key=value, which may be given many times.
 void add_set_option(CLI::App& verb, std::vector<std::string>& settings);

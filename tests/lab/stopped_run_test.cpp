@@ -68,6 +68,16 @@ TEST_F(LongRun, SecondProcessIsRefusedAndSignalsStopCleanly) {
   EXPECT_NE(further.err.find("goes on from the checkpoint"), std::string::npos) << further.err;
 }
 
+TEST_F(LongRun, TwoSignalsAtOnceAreOneRequest) {
+  RunningProgram job(long_run("out"), folder_.path());
+  ASSERT_TRUE(is_shearing("out"));
+  // As a scheduler does: to every process of the job, and once more from its script.
+  job.send(SIGTERM);
+  job.send(SIGTERM);
+  EXPECT_EQ(job.wait().exit_code, 75);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint.h5"));
+}
+
 TEST_F(LongRun, KilledRunLeavesAFolderThatTheNextOneTakesOver) {
   {
     RunningProgram killed(long_run("out"), folder_.path());

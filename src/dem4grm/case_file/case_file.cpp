@@ -90,6 +90,8 @@ LoadedCase parse_case(std::string_view text, const std::filesystem::path& name, 
   return loaded;
 }
 
+bool is_grain_compression_text(std::string_view text) { return is_grain_compression(parse_toml(text).root); }
+
 LoadedCase load_case(const std::filesystem::path& path, std::span<const Override> overrides) {
   return parse_case(read_text_file(path), path, overrides);
 }

@@ -45,6 +45,9 @@ LoadedCase load_case(const std::filesystem::path& path, std::span<const Override
 LoadedCase parse_case(std::string_view text, const std::filesystem::path& name,
                       std::span<const Override> overrides = {});
 
+/// True when the text is, or means to be, a case of a grain compression; it need not be a valid one.
+bool is_grain_compression_text(std::string_view text);
+
 /// The case as a file: every key with its value, its meaning as a comment. Reads as the identical case.
 std::string resolved_toml(const TestCase& test);
 

@@ -225,7 +225,8 @@ Place GivenKeys::place_of(std::initializer_list<std::string_view> paths) const {
 
 void apply_overrides(TomlNode& root, std::span<const Override> overrides, CaseProblems& problems) {
   for (std::size_t i = 0; i < overrides.size(); ++i) {
-    const auto& [key, value] = overrides[i];
+    const std::string& key = overrides[i].key;
+    const std::string& value = overrides[i].value;
     const Place place{1, 1, 1, static_cast<int>(i)};
     // A line break in the comment would end it, so that the scan would see the rest as TOML.
     const bool has_break = value.find_first_of("\r\n") != std::string::npos;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A key given on the command line (--set) instead of in the case file.
+// A key given outside the case file: on the command line (--set), or by a study.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace dem {
 
@@ -10,6 +11,7 @@ namespace dem {
 struct Override {
   std::string key;
   std::string value;
+  std::string_view origin = "--set";  ///< how messages introduce it
 };
 
 }  // namespace dem

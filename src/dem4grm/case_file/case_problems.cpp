@@ -80,8 +80,8 @@ std::string CaseProblems::render(const Entry& entry, std::string_view severity) 
   if (entry.place.option < 0) return render_problem(file_, lines_, entry.place, severity, entry.message, entry.note);
   const Override& option = overrides_[static_cast<std::size_t>(entry.place.option)];
   const std::string tail = entry.note.empty() ? std::string() : fmt::format("\n      | {}", entry.note);
-  return fmt::format("--set {}={}: {}: {}{}", printable(option.key), printable(option.value), severity, entry.message,
-                     tail);
+  return fmt::format("{} {}={}: {}: {}{}", option.origin, printable(option.key), printable(option.value), severity,
+                     entry.message, tail);
 }
 
 void CaseProblems::sort(std::vector<Entry>& entries) {

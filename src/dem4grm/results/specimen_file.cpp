@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "dem4grm/case_file/case_differences.hpp"
 #include "dem4grm/case_file/case_file.hpp"
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/results/file_names.hpp"
@@ -31,35 +31,6 @@ std::string specimen_text(DirectShearCase test) {
   return resolved_toml(test);
 }
 
-/// The settings of a resolved case with their sections, without comments: "shear.normal_stress = "60 kPa"".
-std::vector<std::string> settings_of(const std::string& text) {
-  std::vector<std::string> settings;
-  std::istringstream in(text);
-  std::string section;
-  for (std::string line; std::getline(in, line);) {
-    line = line.substr(0, line.find("  # "));
-    if (line.starts_with('[') && line.ends_with(']')) {
-      section = line.substr(1, line.size() - 2) + '.';
-    } else if (!line.empty() && !line.starts_with('#')) {
-      settings.push_back((line.find(" = ") == std::string::npos ? "" : section) + line);
-    }
-  }
-  return settings;
-}
-
-/// One sentence for each setting that only one of the two has.
-std::vector<std::string> differences(const std::string& stored, const std::string& wanted) {
-  const std::vector<std::string> a = settings_of(stored), b = settings_of(wanted);
-  std::vector<std::string> out;
-  for (const std::string& line : a) {
-    if (std::find(b.begin(), b.end(), line) == b.end()) out.push_back("made with  " + line);
-  }
-  for (const std::string& line : b) {
-    if (std::find(a.begin(), a.end(), line) == a.end()) out.push_back("the case has  " + line);
-  }
-  return out;
-}
-
 void check_origin(const std::filesystem::path& path, const std::string& stored_case, const DirectShearCase& test) {
   const LoadedCase stored = parse_case(stored_case, path);
   const auto* made_for = std::get_if<DirectShearCase>(&stored.test);
@@ -69,7 +40,7 @@ void check_origin(const std::filesystem::path& path, const std::string& stored_c
   throw InputError(fmt::format(
       "{}: the specimen was made for another case; only the name, the record, servo.shear_speed_cap and the "
       "shear apart from its normal stress may differ:\n  {}",
-      path.string(), fmt::join(differences(made, wanted), "\n  ")));
+      path.string(), fmt::join(case_differences(made, wanted), "\n  ")));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <ctime>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,9 +22,9 @@
 namespace dem {
 namespace {
 
-/// What a lock file says: "host=...\npid=...\nstart=...\n".
+/// What a lock file says: "host=...\npid=...\nstart=...\njob=...\n".
 struct Owner {
-  std::string host, start;
+  std::string host, start, job;
   pid_t pid = 0;
 };
 
@@ -38,7 +39,7 @@ Owner read_owner(int descriptor) {
   std::array<char, 512> bytes{};
   const ssize_t n = ::pread(descriptor, bytes.data(), bytes.size(), 0);
   const std::string_view text(bytes.data(), n > 0 ? static_cast<std::size_t>(n) : 0);
-  Owner owner{value_after(text, "host="), value_after(text, "start="), 0};
+  Owner owner{value_after(text, "host="), value_after(text, "start="), value_after(text, "job="), 0};
   const std::string pid = value_after(text, "pid=");
   if (!pid.empty() && pid.size() < 10 && pid.find_first_not_of("0123456789") == std::string::npos) {
     owner.pid = static_cast<pid_t>(std::stol(pid));
@@ -72,9 +73,17 @@ bool is_same_file(int descriptor, const std::filesystem::path& path) {
          open_file.st_dev == named_file.st_dev && open_file.st_ino == named_file.st_ino;
 }
 
+/// True when the process that works in the folder has not written its status for so long that it must have ended.
+bool is_silent(const std::filesystem::path& folder) {
+  struct stat status {};
+  if (::stat((folder / "status.json").c_str(), &status) != 0) return true;
+  return utc_now() - static_cast<double>(status.st_mtime) > FolderLock::k_silence_of_lost_node;
+}
+
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : path_(folder / k_name) {
+FolderLock::FolderLock(const std::filesystem::path& folder, std::string job)
+    : path_(folder / k_name), job_(std::move(job)) {
   try {
     while (!try_once()) {
     }
@@ -105,6 +114,10 @@ bool FolderLock::try_once() {
   if (is_new) return true;
   const Owner owner = read_owner(descriptor_);
   if (!owner.host.empty() && owner.host != host_name()) {
+    if (!job_.empty() && owner.job == job_ && is_silent(path_.parent_path())) {
+      note_ = fmt::format("took over the lock of host {}: batch job {} was put back into the queue", owner.host, job_);
+      return true;
+    }
     throw_in_use(path_, owner, fmt::format("; if that process is dead for certain, remove {}", path_.string()));
   }
   // File systems without locks: the process number is all there is.
@@ -114,8 +127,8 @@ bool FolderLock::try_once() {
 }
 
 void FolderLock::write_owner() {
-  const std::string text =
-      fmt::format("host={}\npid={}\nstart={}\n", host_name(), static_cast<long>(::getpid()), utc_text(utc_now()));
+  const std::string text = fmt::format("host={}\npid={}\nstart={}\njob={}\n", host_name(),
+                                       static_cast<long>(::getpid()), utc_text(utc_now()), job_);
   const bool is_written = ::ftruncate(descriptor_, 0) == 0 &&
                           ::pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
   if (is_written) return;

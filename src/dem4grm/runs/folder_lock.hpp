@@ -3,8 +3,9 @@
 //
 // The file run.lock names its owner for people; what decides is the lock of the operating system on that file, which
 // ends with the process. So a killed run leaves no folder that nobody may use, and a process number that was given to
-// another program in the meantime does no harm. The file of another host is never taken over: its process cannot be
-// seen from here.
+// another program in the meantime does no harm. The file of another host is not taken over, since its process cannot be
+// seen from here, but for one case: the batch job that made it is this very job, put back into the queue by the scheduler
+// after its node was lost, and nothing has been heard from the folder for two minutes.
 #pragma once
 
 #include <filesystem>
@@ -23,8 +24,12 @@ class FolderLock {
  public:
   static constexpr const char* k_name = "run.lock";
 
-  /// Takes the lock of a folder that is there. Throws FolderInUseError, or IoError when the file cannot be written.
-  explicit FolderLock(const std::filesystem::path& folder);
+  /// Of a folder on whose lock another host's process of the same batch job is silent, s.
+  static constexpr double k_silence_of_lost_node = 120.0;
+
+  /// Takes the lock of a folder that is there. `job`: what the scheduler calls the batch job of this process, the same after
+  /// the job was put back into the queue; empty: none. Throws FolderInUseError, or IoError when the file cannot be written.
+  explicit FolderLock(const std::filesystem::path& folder, std::string job = {});
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
   /// Removes the lock file.
@@ -38,6 +43,7 @@ class FolderLock {
   void write_owner();
 
   std::filesystem::path path_;
+  std::string job_;
   int descriptor_ = -1;
   std::string note_;
 };

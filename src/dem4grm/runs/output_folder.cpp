@@ -75,10 +75,11 @@ std::filesystem::path default_folder(const std::string& case_name) {
   return std::filesystem::path("runs") / name;
 }
 
-OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded) : path_(std::move(path)) {
+OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job)
+    : path_(std::move(path)) {
   if (look_into(path_, loaded) == FolderContent::other_case) throw_other_case(path_);
   make_folder(path_);
-  lock_ = std::make_unique<FolderLock>(path_);
+  lock_ = std::make_unique<FolderLock>(path_, job);
   // Another process may have come and gone between the first look and the lock.
   found_ = look_into(path_, loaded);
   if (found_ == FolderContent::other_case) throw_other_case(path_);

@@ -30,8 +30,8 @@ class OutputFolder {
  public:
   /// Makes the folder, takes its lock, removes what an unfinished run without a checkpoint left, writes case.toml and
   /// resolved.toml.
-  /// Throws FolderInUseError, IoError, and Error with ExitCode::usage when it holds another case.
-  OutputFolder(std::filesystem::path path, const LoadedCase& loaded);
+  /// `job` as for FolderLock. Throws FolderInUseError, IoError, and Error with ExitCode::usage when it holds another case.
+  OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job = {});
 
   [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

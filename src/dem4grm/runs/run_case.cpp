@@ -74,7 +74,7 @@ RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   if (auto outcome = outcome_of_complete(settings, look_into(settings.folder, loaded))) return *outcome;
   // Before anything is written: a specimen of another case must not leave a folder behind.
   std::optional<StoredSpecimen> start = chosen_specimen(loaded, settings);
-  const OutputFolder folder(settings.folder, loaded);
+  const OutputFolder folder(settings.folder, loaded, settings.job);
   if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
   std::optional<StoredCheckpoint> checkpoint;
   if (folder.has_checkpoint()) checkpoint = read_checkpoint(folder.file(file_name::k_checkpoint));
@@ -90,13 +90,16 @@ RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   try {
     return {run_test(loaded.test, writer, from), false};
   } catch (const StoppedOnRequest& stop) {
-    writer.give_up(RunState::stopped, stop.what());
+    writer.give_up(RunState::stopped, stop.what(), stop.code());
     throw;
   } catch (const std::bad_alloc&) {
-    writer.give_up(RunState::failed, "out of memory");
+    writer.give_up(RunState::failed, "out of memory", ExitCode::memory);
+    throw;
+  } catch (const Error& e) {
+    writer.give_up(RunState::failed, e.what(), e.code());
     throw;
   } catch (const std::exception& e) {
-    writer.give_up(RunState::failed, e.what());
+    writer.give_up(RunState::failed, e.what(), ExitCode::internal);
     throw;
   }
 }

@@ -14,6 +14,7 @@ struct RunSettings {
   std::filesystem::path folder;
   int threads = 1;  ///< for the record; the caller sets the number for OpenMP
   RunLinks links;
+  std::string job{};                 ///< batch job of this process, as for FolderLock
   std::filesystem::path specimen{};  ///< file or folder of a finished specimen to start from; empty: prepare one
 };
 

@@ -58,16 +58,16 @@ double time_of_step(Simulation& s, double seconds, int threads) {
 }
 
 /// The better of one thread and the most.
-void try_threads(Simulation& s, double trial, int most_threads, RunForecast& out) {
+void try_threads(Simulation& s, int most_threads, StepTrial& out) {
   const int most = most_threads > 0 ? most_threads : omp_get_max_threads();
   out.threads = 1;
-  out.step_time = time_of_step(s, most > 1 ? 0.5 * trial : trial, 1);
+  out.step_time = time_of_step(s, most > 1 ? 0.5 * out.seconds : out.seconds, 1);
   if (most == 1) return;
-  const double with_most = time_of_step(s, 0.5 * trial, most);
+  const double with_most = time_of_step(s, 0.5 * out.seconds, most);
   if (with_most < out.step_time || most_threads > 0) out.step_time = with_most, out.threads = most;
 }
 
-RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double trial, int most_threads) {
+StepTrial trial_of(const DirectShearCase& test, double seconds, int most_threads) {
   const SpecimenOrder order = specimen_order(test);
   const GrainList grains =
       draw_grains(order.specimen, order.box, order.materials.rubber.density, order.solid_density, order.seed);
@@ -75,17 +75,38 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
       make_dense_assembly(grains, order.materials, order.box.length, order.box.width, order.seed);
   Simulation s(assembly.scene);
   s.set_time_step(k_frozen_time_step);
-  RunForecast out;
-  out.trial = trial;
-  try_threads(s, trial, most_threads, out);
+  StepTrial out;
+  out.seconds = seconds;
+  try_threads(s, most_threads, out);
   const double rubber_share = static_cast<double>(s.balls.n_rubber_balls()) / s.balls.n_balls();
   out.step_time *= k_step_of_gravel + (k_step_of_rubber - k_step_of_gravel) * rubber_share;
+  out.contacts = static_cast<double>(balance(s).active_contacts);
+  out.solid_volume = grains.solid_volume();
+  out.has_rubber = grains.rubber_count > 0;
+  return out;
+}
 
-  const bool grows = grains.rubber_count == 0 && test.integration.time_step_rule == TimeStepRule::true_limit;
+StepTrial trial_of(const GrainCompressionCase& test, double seconds, int /*most_threads*/) {
+  Simulation s(lone_grain(test));
+  s.set_time_step(k_frozen_time_step);
+  StepTrial out;
+  out.seconds = 0.1 * seconds;  // it takes microseconds, always the same
+  out.step_time = time_of_step(s, out.seconds, 1);
+  return out;
+}
+
+RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, const StepTrial& trial) {
+  const SpecimenOrder order = specimen_order(test);
+  RunForecast out;
+  out.trial = trial.seconds;
+  out.threads = trial.threads;
+  out.step_time = trial.step_time;
+
+  const bool grows = !trial.has_rubber && test.integration.time_step_rule == TimeStepRule::true_limit;
   const double growth = grows ? k_growth_of_time_step : 1.0;
   const double shear_steps = static_cast<double>(facts.steps) / growth;
   // The plate comes down from the height of the fill at its top speed for most of the way.
-  const double layer = grains.solid_volume() / (test.box.length * test.box.width);
+  const double layer = trial.solid_volume / (test.box.length * test.box.width);
   const double travel = layer * std::max(0.0, facts.generation_void_ratio - facts.expected_void_ratio);
   const double fill_steps = k_fill_of_gravel + (k_fill_of_rubber - k_fill_of_gravel) * facts.rubber_content;
   const double slow = test.specimen.approach_speed;
@@ -104,9 +125,8 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   out.preparation_time = preparation_steps * out.step_time;
   out.test_time = shear_steps * out.step_time;
 
-  const auto contacts = static_cast<double>(balance(s).active_contacts);
   const double state = k_bytes_per_ball * facts.balls + k_bytes_per_bond * facts.bonds +
-                       k_bytes_per_clump * facts.clumps + k_bytes_per_contact * contacts;
+                       k_bytes_per_clump * facts.clumps + k_bytes_per_contact * trial.contacts;
   out.results_size = state * static_cast<double>(state_displacements(test).size() + 1) + k_bytes_per_row * facts.rows +
                      k_bytes_of_micro +  // one more state: specimen.h5
                      k_bytes_per_micro_row * static_cast<double>(micro_displacements(test).size());
@@ -116,13 +136,11 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, double
   return out;
 }
 
-RunForecast forecast(const GrainCompressionCase& test, const CaseFacts& facts, double trial, int /*most_threads*/) {
-  Simulation s(lone_grain(test));
-  s.set_time_step(k_frozen_time_step);
+RunForecast forecast(const GrainCompressionCase& /*test*/, const CaseFacts& facts, const StepTrial& trial) {
   RunForecast out;
   out.threads = 1;
-  out.trial = 0.1 * trial;  // it takes microseconds, always the same
-  out.step_time = time_of_step(s, out.trial, 1);
+  out.trial = trial.seconds;
+  out.step_time = trial.step_time;
   out.steps = facts.steps;
   out.test_time = static_cast<double>(out.steps) * out.step_time;
   return out;
@@ -130,8 +148,16 @@ RunForecast forecast(const GrainCompressionCase& test, const CaseFacts& facts, d
 
 }  // namespace
 
+StepTrial try_steps(const TestCase& test, double seconds, int most_threads) {
+  return std::visit([&](const auto& t) { return trial_of(t, seconds, most_threads); }, test);
+}
+
+RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, const StepTrial& trial) {
+  return std::visit([&](const auto& t) { return forecast(t, facts, trial); }, test);
+}
+
 RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, double trial, int most_threads) {
-  return std::visit([&](const auto& t) { return forecast(t, facts, trial, most_threads); }, test);
+  return forecast_run(test, facts, try_steps(test, trial, most_threads));
 }
 
 JsonObject forecast_as_json(const RunForecast& f) {

@@ -27,8 +27,25 @@ struct RunForecast {
   [[nodiscard]] double time() const { return preparation_time + test_time; }
 };
 
-/// Steps a stand-in for the specimen (lab/dense_assembly.hpp) for about `trial` seconds, half of them on one thread and
-/// half on `most_threads`, which 0 leaves to the machine. Throws InputError for grains that cannot be drawn.
+/// How fast a stand-in for the specimen of a case steps on this machine, and what else only its grains tell.
+struct StepTrial {
+  double seconds = 0.0;       ///< how long it was tried
+  int threads = 1;            ///< as asked for, or what is faster here
+  double step_time = 0.0;     ///< s, of a step of the loaded specimen
+  double contacts = 0.0;      ///< that carry force
+  double solid_volume = 0.0;  ///< m3
+  bool has_rubber = true;
+};
+
+/// Tries the grains of a case (lab/dense_assembly.hpp) for about so many seconds, half of them on one thread and half on
+/// `most_threads`, which 0 leaves to the machine. Tests with the same grains may share a trial. Throws InputError for
+/// grains that cannot be drawn.
+StepTrial try_steps(const TestCase& test, double seconds = k_forecast_trial, int most_threads = 0);
+
+/// The forecast that follows from a trial of the same grains.
+RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, const StepTrial& trial);
+
+/// Both: a trial of the case's own grains, and what follows.
 RunForecast forecast_run(const TestCase& test, const CaseFacts& facts, double trial = k_forecast_trial,
                          int most_threads = 0);
 

@@ -25,8 +25,9 @@ StatusFile::StatusFile(std::filesystem::path path, std::string case_name, int th
   write();
 }
 
-void StatusFile::set_state(RunState state, const std::string& cause) {
+void StatusFile::set_state(RunState state, const std::string& cause, std::optional<ExitCode> exit_code) {
   state_ = state;
+  exit_code_ = exit_code;
   cause_ = cause;
   write();
 }
@@ -66,6 +67,7 @@ void StatusFile::write() {
   status.push_back({"eta", is_known ? JsonValue(utc_text(now + *forecast_.seconds)) : JsonValue()});
   status.push_back({"eta_is_lower_bound", is_known && forecast_.is_lower_bound});
   status.push_back({"cause", cause_.empty() ? JsonValue() : JsonValue(cause_)});
+  status.push_back({"exit_code", exit_code_ ? JsonValue(static_cast<int>(*exit_code_)) : JsonValue()});
   replace_file(path_, json_text(status));
   written_ = now;
 }

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "dem4grm/core/error.hpp"
 #include "dem4grm/lab/observer.hpp"
 #include "dem4grm/runs/remaining_time.hpp"
 
@@ -23,8 +25,8 @@ class StatusFile {
   /// Writes state "created". Throws IoError.
   StatusFile(std::filesystem::path path, std::string case_name, int threads);
 
-  /// Writes at once. `cause` says why a run stopped or failed. Throws IoError.
-  void set_state(RunState state, const std::string& cause = {});
+  /// Writes at once. `cause` says why a run stopped or failed, `exit_code` what the program then ends with. Throws IoError.
+  void set_state(RunState state, const std::string& cause = {}, std::optional<ExitCode> exit_code = {});
   /// Remembers where the run is and writes it if the last write is older than k_least_interval. Throws IoError.
   void set_progress(const Progress& now, const RemainingTime& remaining);
 
@@ -34,6 +36,7 @@ class StatusFile {
   std::filesystem::path path_;
   std::string case_name_, cause_;
   int threads_ = 0;
+  std::optional<ExitCode> exit_code_;
   RunState state_ = RunState::created;
   double started_ = 0.0, written_ = 0.0;  ///< s since 1970
   Progress progress_;

@@ -232,7 +232,7 @@ JsonObject TestWriter::finish(const GrainCompressionResult& result) {
   return summary;
 }
 
-void TestWriter::give_up(RunState state, const std::string& cause) noexcept {
+void TestWriter::give_up(RunState state, const std::string& cause, ExitCode code) noexcept {
   // Each part on its own: when one file cannot be written, another still may.
   const auto attempt = [](const auto& part) noexcept {
     try {
@@ -244,7 +244,7 @@ void TestWriter::give_up(RunState state, const std::string& cause) noexcept {
   // A run that will go on adds its record at its own end.
   const bool goes_on = is_direct_shear_ && state == RunState::stopped;
   attempt([&] { goes_on ? sync_tables() : write_tables(); });
-  attempt([&] { status_.set_state(state, cause); });
+  attempt([&] { status_.set_state(state, cause, code); });
 }
 
 }  // namespace dem

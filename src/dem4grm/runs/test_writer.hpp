@@ -65,7 +65,7 @@ class TestWriter : public LabObserver {
   /// For a test that ends with its specimen: specimen.json; the folder is ready for shear.
   JsonObject finish_specimen(const DirectShearResult& result);
   /// Keeps what there is of a run that ends early. Throws nothing: the reason of the end matters more.
-  void give_up(RunState state, const std::string& cause) noexcept;
+  void give_up(RunState state, const std::string& cause, ExitCode code) noexcept;
 
  private:
   [[nodiscard]] RunFacts facts() const;

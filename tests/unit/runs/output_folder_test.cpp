@@ -3,8 +3,10 @@
 #include "dem4grm/runs/output_folder.hpp"
 
 #include <gtest/gtest.h>
+
 #include <sys/wait.h>
 #include <unistd.h>
+#include <chrono>
 
 #include <fmt/format.h>
 
@@ -81,6 +83,21 @@ TEST(FolderLock, OfAnotherHostIsKept) {
   EXPECT_NE(message.find("process 12 on host far-away since then"), std::string::npos) << message;
   EXPECT_NE(message.find("remove"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder / FolderLock::k_name));
+}
+
+TEST(FolderLock, OfTheSameBatchJobOnALostNodeIsTakenOverOnceItIsSilent) {
+  const TemporaryFolder folder;
+  write_all(folder / FolderLock::k_name, "host=far-away\npid=12\nstart=then\njob=slurm 77\n");
+  write_all(folder / "status.json", "{}");
+  const auto try_with = [&](const std::string& job) { const FolderLock lock(folder.path(), job); };
+  EXPECT_THROW(try_with("slurm 77"), FolderInUseError) << "its status was written a moment ago";
+  using namespace std::chrono_literals;
+  std::filesystem::last_write_time(folder / "status.json", std::filesystem::file_time_type::clock::now() - 10min);
+  EXPECT_THROW(try_with("slurm 78"), FolderInUseError);
+  EXPECT_THROW(try_with(""), FolderInUseError);
+  const FolderLock lock(folder.path(), "slurm 77");
+  EXPECT_NE(lock.note().find("host far-away: batch job slurm 77"), std::string::npos) << lock.note();
+  EXPECT_NE(read_all(folder / FolderLock::k_name).find("job=slurm 77\n"), std::string::npos);
 }
 
 TEST(FolderLock, UnwritableFolderIsAnIoErrorWithItsPath) {

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reading of the tests of a collection.
+#include "dem4grm/campaign/collect.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <span>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/quantity.hpp"
+#include "dem4grm/results/file_names.hpp"
+#include "dem4grm/results/micro_table.hpp"
+
+namespace dem {
+namespace {
+
+constexpr std::size_t k_longest_text = 120;
+constexpr double k_nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Splits at commas; what a run writes has no quotes.
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    cells.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// The rows of a CSV file that a run wrote, added to a table; unknown columns are those of another version of the program.
+void add_rows(const std::filesystem::path& path, std::int32_t test, std::span<const ColumnInfo> known,
+              CollectedTable& table) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  std::string_view rest = text;
+  const auto next_line = [&rest] {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    return line;
+  };
+  const std::vector<std::string_view> header = cells_of(next_line());
+  if (!file || header.size() < 2) throw IoError(fmt::format("{}: cannot be read", path.string()));
+  if (table.columns.empty()) {
+    for (const ColumnInfo& info : known) {
+      table.columns.push_back({std::string(info.name), std::string(info.unit), std::string(info.description), {}});
+    }
+  }
+  std::vector<std::size_t> place(table.columns.size(), header.size());
+  for (std::size_t c = 0; c < table.columns.size(); ++c) {
+    const auto found = std::find(header.begin(), header.end(), table.columns[c].name);
+    place[c] = static_cast<std::size_t>(found - header.begin());
+  }
+  while (!rest.empty()) {
+    const std::vector<std::string_view> cells = cells_of(next_line());
+    if (cells.size() != header.size()) throw IoError(fmt::format("{}: a row is incomplete", path.string()));
+    table.test.push_back(test);
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      const std::string_view cell = place[c] < cells.size() ? cells[place[c]] : std::string_view();
+      table.columns[c].values.push_back(parse_decimal(cell).value_or(k_nothing));
+    }
+  }
+}
+
+/// Numbers and short texts; names of an object inside begin with the name of the object.
+JsonObject flattened(const JsonObject& summary) {
+  JsonObject flat;
+  for (const JsonField& field : summary) {
+    if (const auto* inner = std::get_if<JsonObject>(&field.value.data)) {
+      for (const JsonField& f : *inner) flat.push_back({fmt::format("{}_{}", field.name, f.name), f.value});
+    } else if (const auto* text = std::get_if<std::string>(&field.value.data)) {
+      if (text->size() <= k_longest_text) flat.push_back(field);
+    } else if (!std::holds_alternative<JsonList>(field.value.data)) {
+      flat.push_back(field);
+    }
+  }
+  return flat;
+}
+
+void add_test(const CollectedTest& test, Collection& out) {
+  const auto number = static_cast<std::int32_t>(out.tests.size());
+  const JsonObject summary = read_json_file(test.folder / file_name::k_summary);
+  // A test that turns out to be damaged must leave no rows behind.
+  CollectedTable shear = std::move(out.shear), micro = std::move(out.micro), compression = std::move(out.compression);
+  const auto put_back = [&](std::size_t rows_of_shear, std::size_t rows_of_micro, std::size_t rows_of_compression) {
+    const auto cut = [](CollectedTable& table, std::size_t rows) {
+      table.test.resize(rows);
+      for (CollectedTable::Column& column : table.columns) column.values.resize(rows);
+    };
+    cut(shear, rows_of_shear);
+    cut(micro, rows_of_micro);
+    cut(compression, rows_of_compression);
+    out.shear = std::move(shear);
+    out.micro = std::move(micro);
+    out.compression = std::move(compression);
+  };
+  const std::size_t n_shear = shear.test.size(), n_micro = micro.test.size(), n_compression = compression.test.size();
+  try {
+    if (text_in(summary, "test") == "grain_compression") {
+      add_rows(test.folder / file_name::k_grain, number, compression_columns(), compression);
+    } else {
+      add_rows(test.folder / file_name::k_shear, number, shear_columns(), shear);
+      add_rows(test.folder / file_name::k_micro, number, micro_columns(), micro);
+    }
+  } catch (...) {
+    put_back(n_shear, n_micro, n_compression);
+    throw;
+  }
+  put_back(shear.test.size(), micro.test.size(), compression.test.size());
+  out.tests.push_back(test);
+  out.summaries.push_back(flattened(summary));
+}
+
+bool is_of_mixture(const StudyValue& value) { return value.key != "shear.normal_stress" && value.key != "seed"; }
+
+void find_envelopes(Collection& out) {
+  struct Mixture {
+    std::vector<StudyValue> values;
+    std::vector<StrengthPoint> peak, residual;
+    int hardening = 0;
+  };
+  std::vector<Mixture> mixtures;
+  std::map<std::string, std::size_t> places;
+  for (std::size_t k = 0; k < out.tests.size(); ++k) {
+    const JsonObject& summary = out.summaries[k];
+    if (find_field(summary, "peak_shear_stress_kPa") == nullptr) continue;
+    std::vector<StudyValue> values;
+    std::string key;
+    for (const StudyValue& value : out.tests[k].values) {
+      if (!is_of_mixture(value)) continue;
+      key += fmt::format("{}={};", value.key, value.text);
+      values.push_back(value);
+    }
+    const auto [place, is_new] = places.emplace(key, mixtures.size());
+    if (is_new) mixtures.push_back({values, {}, {}, 0});
+    Mixture& mixture = mixtures[place->second];
+    const double sigma = 1e3 * number_in(summary, "normal_stress_mean_kPa");
+    mixture.peak.push_back({sigma, 1e3 * number_in(summary, "peak_shear_stress_kPa")});
+    mixture.residual.push_back({sigma, 1e3 * number_in(summary, "residual_shear_stress_kPa")});
+    mixture.hardening += is_set_in(summary, "hardening") ? 1 : 0;
+  }
+  for (const Mixture& mixture : mixtures) {
+    out.envelopes.push_back({mixture.values, "peak", mixture.hardening, fit_envelope(mixture.peak)});
+    out.envelopes.push_back({mixture.values, "residual", mixture.hardening, fit_envelope(mixture.residual)});
+  }
+}
+
+std::string bounds_text(const Estimate& estimate, double scale) {
+  std::string text = fmt::format("{:.1f}", scale * estimate.value);
+  if (estimate.low && estimate.high)
+    text += fmt::format(" ({:.1f} to {:.1f})", scale * *estimate.low, scale * *estimate.high);
+  return text;
+}
+
+}  // namespace
+
+Collection read_collection(const std::vector<CollectedTest>& tests) {
+  Collection out;
+  for (const CollectedTest& test : tests) {
+    try {
+      add_test(test, out);
+    } catch (const Error& error) {
+      out.warnings.push_back(fmt::format("{} is left out: {}", test.name, error.what()));
+      continue;
+    }
+    for (const StudyValue& value : test.values) {
+      if (std::find(out.columns.begin(), out.columns.end(), value.column) == out.columns.end()) {
+        out.columns.push_back(value.column);
+      }
+    }
+  }
+  find_envelopes(out);
+  return out;
+}
+
+std::string envelopes_text(const Collection& collection) {
+  constexpr double k_degrees_per_radian = 180.0 / std::numbers::pi;
+  std::string text;
+  for (const MixtureEnvelope& e : collection.envelopes) {
+    if (!e.fit.friction_angle) continue;
+    std::vector<std::string> words;
+    for (const StudyValue& value : e.values) words.push_back(fmt::format("{} {}", value.column, value.text));
+    text += fmt::format(
+        "  {:<40} {:<9} phi {} degrees, c {} kPa, {} tests{}\n", fmt::join(words, ", "), e.quantity,
+        bounds_text(*e.fit.friction_angle, k_degrees_per_radian), bounds_text(*e.fit.cohesion, 1e-3), e.fit.points,
+        e.quantity == "peak" && e.hardening > 0 ? fmt::format(", {} still hardening", e.hardening) : "");
+  }
+  return text;
+}
+
+}  // namespace dem
