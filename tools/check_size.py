@@ -25,7 +25,7 @@ SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cu", ".cuh", ".py", ".sh", ".cmake", 
 EXCEPTIONS = "tools/size_exceptions.txt"
 LICENCE = "SPDX-License-Identifier: BSD-3-Clause"
 MARKER = re.compile(r"\b(?:TO" r"DO|FIX" r"ME|XX" r"X)\b")  # in pieces, so that this file passes its own check
-SKIPPED_FOLDERS = {".git", "build", "runs", "node_modules", "__pycache__", ".cache"}
+SKIPPED_FOLDERS = {".git", "build", "node_modules", "__pycache__", ".cache"}  # and runs/ at the top
 
 TOKEN = re.compile(
     r'(?P<raw>\b(?:u8|[uUL])?R"(?P<fence>[^()\s\\]{0,16})\(.*?\)(?P=fence)")'
@@ -45,7 +45,8 @@ def project_files(root: Path) -> list[Path]:
     if answer and answer.returncode == 0:
         files = (root / name for name in answer.stdout.decode().split("\0") if name)
     else:
-        files = (file for file in root.rglob("*") if not SKIPPED_FOLDERS & set(file.relative_to(root).parts))
+        parts = {file: file.relative_to(root).parts for file in root.rglob("*")}
+        files = (file for file in parts if not SKIPPED_FOLDERS & set(parts[file]) and parts[file][0] != "runs")
     return sorted({file for file in files if file.is_file() and not file.is_symlink()})
 
 

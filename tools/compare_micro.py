@@ -7,7 +7,6 @@ network by kind and the strain of the rubber. --table also prints, in Markdown, 
 shear stress and at the end. Reads shear.csv, micro.csv and summary.json. Needs python3-matplotlib.
 """
 import argparse
-import json
 import pathlib
 import sys
 
@@ -17,7 +16,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-from run_files import read_csv
+from run_files import read_csv, read_json
 
 COLOURS = ("#31475e", "#c2410c", "#0e7490", "#7c3aed", "#b9a27f", "#4d7c0f")
 KINDS = {"gg": "gravel-gravel", "gr": "gravel-rubber", "rr": "rubber-rubber"}
@@ -56,7 +55,7 @@ class Run:
     def __init__(self, folder):
         self.shear = read_csv(folder / "shear.csv")
         self.micro = read_csv(folder / "micro.csv")
-        summary = json.loads((folder / "summary.json").read_text())
+        summary = read_json(folder)
         self.displacement_at_peak = summary["displacement_at_peak_mm"]
         self.name = f"VRC {100 * summary['rubber_content']:.0f} %"
         self.label = (f"VRC {100 * summary['rubber_content']:.0f} %, {summary['normal_stress_target_kPa']:g} kPa, "

@@ -7,7 +7,6 @@ shear direction, and the contact forces in the same slice. A grain compression b
 from the side. Needs python3-h5py and python3-matplotlib; reads shear.csv or grain.csv and results.h5 only.
 """
 import argparse
-import json
 import pathlib
 
 import h5py
@@ -18,7 +17,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.collections import EllipseCollection, LineCollection
 
-from run_files import read_csv
+from run_files import read_csv, read_json
 
 GRAVEL, RUBBER = "#b9a27f", "#31475e"
 PAIR_COLOURS = {"gravel-gravel": "#c2410c", "gravel-rubber": "#7c3aed", "rubber-rubber": "#0e7490"}
@@ -92,7 +91,7 @@ def draw_forces(axes, frame):
 
 def draw_shear(folder, at):
     rows = read_csv(folder / "shear.csv")
-    summary = json.loads((folder / "summary.json").read_text())
+    summary = read_json(folder)
     figure, axes = plt.subplots(2, 2, figsize=(11, 8.4), layout="constrained",
                                 height_ratios=(1, 1.35))
     u = rows["displacement_mm"]

@@ -14,7 +14,6 @@ python3-matplotlib for --write.
 """
 import argparse
 import csv
-import json
 import pathlib
 import signal
 import subprocess
@@ -23,7 +22,7 @@ import time
 
 import numpy as np
 
-from run_files import read_csv
+from run_files import fill_page, read_csv, read_json
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/results/quasi-static.md"
@@ -97,12 +96,8 @@ class Job:
         self.process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                                         start_new_session=True)
 
-    def json(self, name):
-        path = self.folder / name
-        return json.loads(path.read_text()) if path.exists() else None
-
     def result(self):
-        return self.json("summary.json" if self.velocity else "specimen.json")
+        return read_json(self.folder, "summary.json" if self.velocity else "specimen.json")
 
     def is_done(self):
         return self.result() is not None
@@ -127,7 +122,7 @@ class Job:
         return self.seconds() + Job(self.options, self.vrc, self.seed, "published").seconds()
 
     def state(self):
-        status = self.json("status.json")
+        status = read_json(self.folder, "status.json")
         if self.is_done():
             return "done"
         if status is None:
@@ -394,12 +389,7 @@ def write(options):
     if not PAGE.exists():
         print("\n\n".join(tables.values()))
         return
-    text = PAGE.read_text()
-    for name, table in tables.items():
-        begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
-        head, rest = text.split(begin)
-        text = head + begin + "\n\n" + table + "\n\n" + end + rest.split(end)[1]
-    PAGE.write_text(text)
+    fill_page(PAGE, tables)
 
 
 def main():

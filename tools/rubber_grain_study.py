@@ -6,8 +6,6 @@ Compresses one grain between two plates (cases/grain_compression.toml) for every
 docs/pictures/ and writes the tables between the marks of docs/verification/rubber-grain.md. Needs python3-matplotlib.
 """
 import argparse
-import csv
-import json
 import pathlib
 import subprocess
 import tempfile
@@ -17,6 +15,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+
+from run_files import read_csv, read_json
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/verification/rubber-grain.md"
@@ -65,16 +65,13 @@ class Grain:
 
 class Curve:
     def __init__(self, folder, status):
-        with open(folder / "grain.csv", newline="") as file:
-            rows = list(csv.reader(file))
-        values = np.array([[float(v) for v in row] for row in rows[1:]])
-        self.columns = dict(zip(rows[0], values.T))
+        self.columns = read_csv(folder / "grain.csv")
         # A load is a mean over its interval, so it belongs to the middle of it.
         u = self.columns["displacement_mm"]
         self.middle = u - 0.5 * np.diff(u, prepend=0.0)
         self.load, self.ratio, self.strain = (self.columns[k] for k in ("load_N", "poisson_ratio", "strain"))
         self.is_whole = status == 0
-        self.summary = json.loads((folder / "summary.json").read_text()) if self.is_whole else {}
+        self.summary = read_json(folder) if self.is_whole else {}
 
     def load_at(self, displacement_mm):
         return float(np.interp(displacement_mm, self.middle, self.load, right=np.nan))

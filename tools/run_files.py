@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads what a run writes, for the scripts beside it."""
+"""Reads what a run writes, and fills the marked tables of result pages, for the scripts beside it."""
 import csv
+import json
 
 import numpy as np
 
@@ -11,3 +12,19 @@ def read_csv(path):
         rows = list(csv.reader(file))
     whole = [r for r in rows[1:] if len(r) == len(rows[0])]  # the last row of a running test may be half written
     return {name: np.array([float(r[k]) for r in whole]) for k, name in enumerate(rows[0])}
+
+
+def read_json(folder, name="summary.json"):
+    """A JSON file of an output folder; None when it is not there yet."""
+    path = folder / name
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
+
+
+def fill_page(page, tables):
+    """Puts each table (Markdown text by its name) between the marks `<!-- name -->` and `<!-- end of name -->` of a page."""
+    text = page.read_text(encoding="utf-8")
+    for name, table in tables.items():
+        begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
+        head, rest = text.split(begin)
+        text = head + begin + "\n\n" + table + "\n\n" + end + rest.split(end)[1]
+    page.write_text(text, encoding="utf-8")

@@ -11,10 +11,11 @@ between the marks of docs/results/calibration-void-ratio.md, with a picture and 
 import argparse
 import concurrent.futures
 import csv
-import json
 import pathlib
 import subprocess
 import sys
+
+from run_files import fill_page, read_json
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs/results/calibration-void-ratio.md"
@@ -111,12 +112,11 @@ class Job:
         return out
 
     def has_failed(self, folder):
-        path = folder / self.folder / "status.json"
-        return path.exists() and json.loads(path.read_text())["state"] == "failed"
+        status = read_json(folder / self.folder, "status.json")
+        return status is not None and status["state"] == "failed"
 
     def result(self, folder):
-        path = folder / self.folder / "specimen.json"
-        return json.loads(path.read_text()) if path.exists() else None
+        return read_json(folder / self.folder, "specimen.json")
 
 
 def all_jobs():
@@ -246,14 +246,9 @@ def write(folder):
         writer.writeheader()
         writer.writerows(rows)
     failed = {(j.vrc, j.label) for j in all_jobs() if j.part == "choices" and j.has_failed(folder)}
-    text = PAGE.read_text()
     tables = {"full": full_table(rows), "density": density_table(rows), "gravel": choices_table(rows, 0, failed),
               "rubber": choices_table(rows, 100, failed)}
-    for name, table in tables.items():
-        begin, end = f"<!-- {name} -->", f"<!-- end of {name} -->"
-        head, rest = text.split(begin)
-        text = head + begin + "\n\n" + table + "\n\n" + end + rest.split(end)[1]
-    PAGE.write_text(text)
+    fill_page(PAGE, tables)
     draw(rows)
 
 
