@@ -37,6 +37,8 @@ void CampaignProgress::ended(const TestStatus& test) {
     print_note(fmt::format("{} is done, hash {}", test.name, test.state_hash));
   } else if (is_well) {
     print_note(fmt::format("{} is stopped and can go on", test.name));
+  } else if (test.state == TestState::running) {
+    print_warning(fmt::format("{} is left to another process, which works on it", test.name));
   } else {
     print_warning(
         fmt::format("{} {}: {}", test.name, test.state == TestState::lost ? "was lost" : "failed", test.cause));

@@ -186,6 +186,26 @@ TEST_F(Campaign, TwoAtOnceInOneFolderAreRefused) {
   EXPECT_EQ(first.wait().exit_code, 75);
 }
 
+TEST_F(Campaign, ATestThatAnotherProcessWorksOnIsLeftToIt) {
+  write_study("shear.velocity = \"1 mm/s\"\n");
+  ASSERT_EQ(run({"campaign", "plan", "study.toml"}).exit_code, 0);
+  RunningProgram campaign(words(command({"-w", "1", "-j", "1"})), folder_.path());
+  ASSERT_TRUE(test::wait_for_file(folder_ / "out/tests/vrc020-100kPa/status.json", 30.0));
+  campaign.send(SIGTERM);
+  ASSERT_EQ(campaign.wait().exit_code, 75);
+  RunningProgram single(
+      words({"run", "out/cases/vrc020-100kPa.toml", "-o", "out/tests/vrc020-100kPa", "--store", "out/store", "-q"}),
+      folder_.path());
+  ASSERT_TRUE(test::wait_for_file(folder_ / "out/tests/vrc020-100kPa/run.lock", 30.0));
+  RunningProgram again(words(command({"-w", "1", "-j", "1"})), folder_.path());
+  ASSERT_TRUE(test::wait_for_file(folder_ / "out/tests/vrc000-100kPa/run.lock", 30.0));
+  again.send(SIGTERM);
+  const ProgramResult ended = again.wait();
+  EXPECT_NE(ended.err.find("vrc020-100kPa is left to another process"), std::string::npos) << ended.err;
+  single.send(SIGTERM);
+  EXPECT_EQ(single.wait().exit_code, 75);
+}
+
 TEST_F(Campaign, AnEditedCaseIsRefusedARemovedFolderIsMadeAgain) {
   write_study();
   ASSERT_EQ(run(command({"-w", "2", "-j", "1"})).exit_code, 0);

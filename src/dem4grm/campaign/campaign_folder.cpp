@@ -44,6 +44,13 @@ void make_folders(const CampaignFolder& folder) {
   }
 }
 
+void refuse_folder_of_a_run(const CampaignFolder& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder.root() / file_name::k_resolved, ignored)) return;
+  throw Error(ExitCode::usage, fmt::format("{} is the output folder of a single test; choose another folder with -o",
+                                           folder.root().string()));
+}
+
 /// Tests that were begun with another case than the study has now.
 void refuse_changed_cases(const CampaignFolder& folder, const Study& study) {
   std::string text;
@@ -95,6 +102,7 @@ std::vector<StudyValue> values_from_json(const JsonObject& test) {
 }  // namespace
 
 std::vector<std::string> write_campaign(const CampaignFolder& folder, const Study& study, const CampaignPlan& plan) {
+  refuse_folder_of_a_run(folder);
   refuse_changed_cases(folder, study);
   std::vector<std::string> notes;
   std::error_code ignored;

@@ -91,6 +91,11 @@ class LocalRun {
   static void explain(Task& task, const ProcessEnd& end) {
     TestStatus& status = task.status;
     if (status.state == TestState::done || status.state == TestState::stopped) return;
+    if (end.exit_code == static_cast<int>(ExitCode::folder_in_use)) {
+      status.state = TestState::running;
+      status.cause = "another process works on it";
+      return;
+    }
     if (status.state != TestState::failed) status.state = TestState::lost;
     if (!status.exit_code) status.exit_code = end.exit_code;
     if (end.signal != 0) {

@@ -79,8 +79,8 @@ class ArrayWriter {
     for (const std::string& option : options_.extra) line(option);
     text += "names=(\n";
     for (const SlurmTask* task : tasks) text += fmt::format("  {}\n", task->name);
-    text += fmt::format(")\nexec bash '{}/slurm/run_test.sh' \"${{names[$SLURM_ARRAY_TASK_ID]}}\" {}\n", folder,
-                        array.prepares ? "specimen" : "run");
+    text += fmt::format(")\nexec bash {} \"${{names[$SLURM_ARRAY_TASK_ID]}}\" {}\n",
+                        shell_quoted(folder + "/slurm/run_test.sh"), array.prepares ? "specimen" : "run");
     return text;
   }
 
@@ -103,6 +103,12 @@ void sort_longest_first(TaskList& tasks) {
 }
 
 }  // namespace
+
+std::string shell_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
 
 std::string slurm_time(double seconds) {
   const auto minutes = static_cast<long long>(std::ceil(seconds / 60.0 - 1e-9));

@@ -53,6 +53,9 @@ std::vector<SlurmArray> slurm_arrays(const std::vector<SlurmTask>& tasks, const 
 /// run_test.sh: one test from its case to its end, however often the scheduler interrupts it.
 std::string slurm_test_script(const SlurmPlaces& places);
 
+/// In single quotes, safe from the shell whatever it holds.
+std::string shell_quoted(const std::string& text);
+
 /// "02:30:00", "1-06:00:00": whole minutes, rounded up.
 std::string slurm_time(double seconds);
 

@@ -110,8 +110,8 @@ exit "$code"
 }  // namespace
 
 std::string slurm_test_script(const SlurmPlaces& places) {
-  return fmt::format("#!/usr/bin/env bash\n# Written by dem4grm campaign run.\nfolder='{}'\ndefault_program='{}'\n{}",
-                     places.folder.string(), places.program.string(), k_body);
+  return fmt::format("#!/usr/bin/env bash\n# Written by dem4grm campaign run.\nfolder={}\ndefault_program={}\n{}",
+                     shell_quoted(places.folder.string()), shell_quoted(places.program.string()), k_body);
 }
 
 }  // namespace dem

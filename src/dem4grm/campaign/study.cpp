@@ -62,6 +62,11 @@ class StudyReader {
   // ---- what the file says before its tables
 
   void read_head(const TomlNode& root) {
+    if (const TomlNode* specimen = find_member(root, "specimen");
+        specimen != nullptr && find_member(root, "base") == nullptr) {
+      problems_.error(specimen->place, "this is a case, not a study; a study names it: base = \"case.toml\"");
+      return;
+    }
     constexpr std::array<std::string_view, 7> k_known{"name", "base", "cases", "set", "axes", "paired", "tests"};
     for (const TomlMember& member : root.members) {
       if (std::find(k_known.begin(), k_known.end(), member.key) != k_known.end()) continue;

@@ -29,6 +29,14 @@ bool is_grain_compression(const TomlNode& root) {
   return find_member(root, "compression") != nullptr && find_member(root, "shear") == nullptr;
 }
 
+/// What a case never has and a study must; nullptr without it.
+const TomlMember* word_of_a_study(const TomlNode& root) {
+  for (const TomlMember& member : root.members) {
+    if (member.key == "base" || member.key == "cases" || member.key == "axes") return &member;
+  }
+  return nullptr;
+}
+
 template <class Other, class Test>
 void read_test(Test& test, const TomlNode& root, const std::filesystem::path& folder, CaseProblems& problems) {
   Other other;
@@ -80,8 +88,13 @@ LoadedCase parse_case(std::string_view text, const std::filesystem::path& name, 
   LoadedCase loaded;
   if (document.is_usable) {
     problems.ignore_lines(std::move(document.reported_lines));
-    apply_overrides(document.root, overrides, problems);
-    loaded.test = read_case(document.root, name.parent_path(), problems);
+    if (const TomlMember* word = word_of_a_study(document.root)) {
+      problems.error(word->key_place,
+                     "this is a study, which makes many tests of a case: dem4grm campaign plan shows them");
+    } else {
+      apply_overrides(document.root, overrides, problems);
+      loaded.test = read_case(document.root, name.parent_path(), problems);
+    }
   }
   problems.throw_errors();
   loaded.source_text = std::string(text);

@@ -107,12 +107,17 @@ TEST(SlurmScripts, OptionsOfTheUserStandInTheScript) {
 
 TEST(SlurmScripts, AreSoundShell) {
   const test::TemporaryFolder folder;
-  test::write_all(folder / "run_test.sh", slurm_test_script({"/opt/dem4grm", "/home/me/a study", "study"}));
+  test::write_all(folder / "run_test.sh", slurm_test_script({"/opt/dem4grm", "/home/me/it's a \"study\"", "study"}));
   test::write_all(folder / "tests.sh", arrays_of({task("a", 100)}).front().text);
   for (const char* name : {"run_test.sh", "tests.sh"}) {
     const CommandOutput checked = output_of({"bash", "-n", (folder / name).string()});
     EXPECT_EQ(checked.exit_code, 0) << checked.err;
   }
+}
+
+TEST(SlurmScripts, PathsArriveAsTheyAre) {
+  const std::string odd = "/home/me/it's a $HOME \"study\"";
+  EXPECT_EQ(output_of({"bash", "-c", "printf %s " + shell_quoted(odd)}).out, odd);
 }
 
 TEST(CommandOutput, BothStreamsCodeAndSignals) {

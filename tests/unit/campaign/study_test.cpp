@@ -234,6 +234,7 @@ TEST_F(StudyFile, MissingFilesAndWordsAreNamed) {
     return std::string();
   };
   EXPECT_NE(said("base = \"nowhere.toml\"\n").find("nowhere.toml: no such file"), std::string::npos);
+  EXPECT_NE(said(test::k_tiny_case).find("this is a case, not a study"), std::string::npos);
   EXPECT_NE(said("name = \"x\"\n").find("a study names either its base"), std::string::npos);
   EXPECT_NE(said("base = \"tiny.toml\"\ncases = [\"tiny.toml\"]\n").find("a study names either its base"),
             std::string::npos);

@@ -153,6 +153,13 @@ TEST_F(FolderOfACampaign, TestsThatLeftTheStudyAreMentioned) {
   EXPECT_NE(notes[0].find("1 test(s) of an earlier call"), std::string::npos);
 }
 
+TEST_F(FolderOfACampaign, TheFolderOfASingleTestIsRefused) {
+  std::filesystem::create_directories(folder_ / "out");
+  test::write_all(folder_ / "out/resolved.toml", "x");
+  EXPECT_THROW(write("[axes]\nseed = [1]\n"), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/cases"));
+}
+
 TEST_F(FolderOfACampaign, OtherFoldersAndDamagedRecordsAreRefused) {
   EXPECT_THROW(read_campaign(CampaignFolder(folder_.path())), MissingFileError);
   write("[axes]\nseed = [1]\n");
