@@ -132,23 +132,30 @@ TEST_F(Campaign, AKilledCampaignStopsItsTestsAndAKilledTestIsNamed) {
   write_study("shear.velocity = \"2 mm/s\"\n");
   {
     RunningProgram campaign(words(command({"-w", "2", "-j", "1"})), folder_.path());
-    ASSERT_TRUE(test::wait_for_file(folder_ / "out/tests/vrc000-100kPa/results.h5", 30.0));
+    for (const std::string name : {"vrc000-100kPa", "vrc020-100kPa"}) {
+      ASSERT_TRUE(test::wait_for_file(folder_ / ("out/tests/" + name + "/results.h5"), 30.0));
+    }
     campaign.send(SIGKILL);
     EXPECT_EQ(campaign.wait().signal, SIGKILL);
   }
   // The tests notice that nobody waits for them any more.
-  for (int k = 0; k < 1000 && std::filesystem::exists(folder_ / "out/tests/vrc000-100kPa/run.lock"); ++k) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const auto lock_of = [&](const std::string& name) { return folder_ / ("out/tests/" + name + "/run.lock"); };
+  for (const std::string name : {"vrc000-100kPa", "vrc020-100kPa"}) {
+    for (int k = 0; k < 3000 && std::filesystem::exists(lock_of(name)); ++k) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    EXPECT_EQ(text_in(json("out/tests/" + name + "/status.json"), "state"), "stopped");
   }
-  EXPECT_EQ(text_in(json("out/tests/vrc000-100kPa/status.json"), "state"), "stopped");
 
   // The longest begins first.
   RunningProgram again(words(command({"-w", "1", "-j", "1"})), folder_.path());
-  ASSERT_TRUE(test::wait_for_file(folder_ / "out/tests/vrc020-100kPa/run.lock", 30.0));
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  const std::string lock = read_all(folder_ / "out/tests/vrc020-100kPa/run.lock");
+  std::string lock;
+  for (int k = 0; k < 3000 && lock.find("job=") == std::string::npos; ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    lock = read_all(lock_of("vrc020-100kPa"));
+  }
   const std::size_t at = lock.find("pid=");
-  ASSERT_NE(at, std::string::npos) << lock;
+  ASSERT_NE(at, std::string::npos) << "no lock in 30 s";
   ::kill(static_cast<pid_t>(std::stol(lock.substr(at + 4))), SIGKILL);
   ASSERT_TRUE(test::wait_for_file(folder_ / "out/tests/vrc000-100kPa/run.lock", 30.0)) << "the others go on";
   again.send(SIGTERM);
