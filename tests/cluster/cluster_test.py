@@ -177,10 +177,10 @@ class Campaigns(unittest.TestCase):
                       self.submit("cases/studies/quick.toml", "runs/quick-study"))
 
     def test_2_a_lost_node_and_a_restarted_controller(self):
-        study = self.write_study("lost.toml", MIXTURES.replace("[axes]", '[set]\nshear.velocity = "10 mm/s"\n[axes]'))
+        study = self.write_study("lost.toml", MIXTURES.replace("[axes]", '[set]\nshear.velocity = "5 mm/s"\n[axes]'))
         self.submit(study, "lost")
         self.wait_for_shear("lost", "vrc025-100kPa")
-        self.cluster.kill_controller()
+        self.cluster.stop_controller()
         victim = self.node_of("lost")
         self.cluster.kill_node(victim)
         self.cluster.start_controller()

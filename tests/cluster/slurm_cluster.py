@@ -151,8 +151,11 @@ class SlurmCluster:
     def start_node(self, node):
         self.run("slurmd", "-N", node)
 
-    def kill_controller(self):
-        self.kill("slurmctld.pid")
+    def stop_controller(self):
+        """As its administrator would: it saves what it knows. Killed, it would forget what came in its last seconds."""
+        process = int((self.folder / "slurmctld.pid").read_text())
+        os.kill(process, signal.SIGTERM)
+        self.wait_for(lambda: not is_alive(process), 20, "the controller to stop")
 
     def kill_node(self, node):
         """The machine of a node is lost: nothing there has time for a last word, so those that would speak die first."""

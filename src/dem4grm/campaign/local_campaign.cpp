@@ -90,19 +90,20 @@ class LocalRun {
   /// What the folder cannot say of a process that ended without writing to it.
   static void explain(Task& task, const ProcessEnd& end) {
     TestStatus& status = task.status;
-    if (status.state == TestState::done || status.state == TestState::stopped) return;
-    if (end.exit_code == static_cast<int>(ExitCode::folder_in_use)) {
-      status.state = TestState::running;
-      status.cause = "another process works on it";
-      return;
-    }
-    if (status.state != TestState::failed) status.state = TestState::lost;
-    if (!status.exit_code) status.exit_code = end.exit_code;
+    if (status.state == TestState::done) return;
     if (end.signal != 0) {
+      // It had no time for a word, so what the folder says is of an earlier run.
+      status.state = TestState::lost;
+      status.exit_code = end.exit_code;
       status.cause = fmt::format("its process was ended by signal {}{}", end.signal,
                                  end.signal == SIGKILL ? ", by hand or for want of memory" : "");
-    } else if (status.cause.empty()) {
-      status.cause = fmt::format("its process ended with code {}", end.exit_code);
+    } else if (end.exit_code == static_cast<int>(ExitCode::folder_in_use)) {
+      status.state = TestState::running;
+      status.cause = "another process works on it";
+    } else if (status.state != TestState::stopped) {
+      status.state = TestState::failed;
+      if (!status.exit_code) status.exit_code = end.exit_code;
+      if (status.cause.empty()) status.cause = fmt::format("its process ended with code {}", end.exit_code);
     }
   }
 

@@ -12,8 +12,8 @@
 //
 // t: quantile of Student's distribution with n - 2 degrees of freedom, so that the bounds hold the true value in 95 of 100
 // studies; the bounds of phi are the angles of those of tan(phi). Through the origin (c = 0): tan(phi) = sum sigma_i tau_i /
-// sum sigma_i^2, s^2 over n - 1, bounds +- t s / sqrt(sum sigma_i^2). Source: Draper and Smith, Applied Regression Analysis,
-// chapter 1 (straight line) and 1.4 (confidence intervals).
+// sum sigma_i^2, s^2 over n - 1, bounds +- t s / sqrt(sum sigma_i^2). Source: any textbook of regression, as
+// N. R. Draper and H. Smith, Applied Regression Analysis: fit of a straight line and its confidence intervals.
 #pragma once
 
 #include <optional>
