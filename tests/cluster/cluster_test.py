@@ -203,10 +203,16 @@ class Campaigns(unittest.TestCase):
         study = self.write_study("cancel.toml", 'base = "base.toml"\n[set]\nshear.velocity = "5 mm/s"\n[axes]\nseed = [1, 2]\n')
         self.submit(study, "cancel")
         self.wait_for_shear("cancel", "seed2")
+        # The last element of an array has the number of the array: its requeue must not be that of all elements.
+        self.cluster.run("scancel", "--batch", "--signal=USR1", self.elements_of("cancel")["seed2"])
+        logs = [self.folder / f"cancel/slurm/logs/tests-001-{k}.out" for k in (0, 1)]
+        self.cluster.wait_for(lambda: text(logs[1]).count("run, start") == 2, 60, "the second start")
+        self.wait_for_shear("cancel", "seed2")
         self.cluster.run("scancel", self.elements_of("cancel")["seed2"])
         self.wait_until("cancel", lambda tests: tests["seed2"]["state"] == "stopped")
         self.assertIn("stopped on request", self.state_of_tests("cancel")["seed2"]["cause"])
         self.wait_until("cancel", lambda tests: tests["seed1"]["state"] == "done")
+        self.assertEqual(text(logs[0]).count("run, start"), 1, "the other element was left alone")
         self.assertIn("1 test(s) submitted", self.submit(study, "cancel"))
         self.wait_for_all("cancel")
         self.assertEqual(self.hashes("cancel"), self.without_slurm(study, "cancel-here"))

@@ -40,6 +40,8 @@ trap 'ask_for_end end' TERM INT
 say() { echo "$(date -u +%FT%TZ) $name: $*"; }
 
 run_once() {
+  code=75
+  [[ $reason != none ]] && return   # asked to end before it began
   "$program" "$verb" "$folder/cases/$name.toml" -o "$test_folder" "${store[@]}" -j "$threads" -q \
     </dev/null >/dev/null 2>"$log" &
   child=$!
@@ -77,8 +79,11 @@ put_back() {
     say "stopped at the time limit; the same command goes on"
     exit 75
   fi
+  # The number of one element of an array is also that of the whole array, whose other elements must stay as they are.
+  local job=$SLURM_JOB_ID
+  [[ -n ${SLURM_ARRAY_TASK_ID:-} && -n ${SLURM_ARRAY_JOB_ID:-} ]] && job=${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID
   say "stopped at the time limit; goes back into the queue"
-  scontrol requeue "$SLURM_JOB_ID" || exit 75
+  scontrol requeue "$job" || exit 75
   sleep 60   # Slurm ends this script
   exit 75
 }
@@ -93,7 +98,8 @@ grep -q '^test *= *"grain_compression"' "$folder/cases/$name.toml" && store=()
 say "$verb, start ${SLURM_RESTART_COUNT:-0}, on $(hostname)"
 while true; do
   run_once
-  if [[ $code -eq 75 && $reason == limit ]]; then put_back; fi
+  # 143: asked in its first moments, before it listens.
+  [[ $reason == limit && ( $code -eq 75 || $code -eq 143 ) ]] && put_back
   [[ $code -eq 73 && $reason == end ]] && exit 75
   [[ $code -ne 73 ]] && break
   # The scheduler may believe a node dead whose processes live on.
