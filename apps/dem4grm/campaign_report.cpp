@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <ctime>
 
 #include "dem4grm/runs/folder_lock.hpp"
 #include "terminal.hpp"
@@ -48,16 +46,7 @@ std::string first_line(const std::string& text) {
 
 }  // namespace
 
-std::string finish_text(double seconds_ahead) {
-  const auto time = static_cast<std::time_t>(utc_now() + seconds_ahead);
-  std::tm parts{};
-  if (::localtime_r(&time, &parts) == nullptr) return "?";
-  std::array<char, 64> text{};
-  const bool is_far = seconds_ahead > 20.0 * 3600.0;
-  if (is_far) std::strftime(text.data(), text.size(), "%a %d %b %H:%M", &parts);
-  if (!is_far) std::strftime(text.data(), text.size(), "%H:%M", &parts);
-  return text.data();
-}
+std::string finish_text(double seconds_ahead) { return clock_text(utc_now(), seconds_ahead); }
 
 std::string plan_text(const Study& study, const CampaignPlan& plan) {
   const std::size_t width = width_of_names(plan.tests);

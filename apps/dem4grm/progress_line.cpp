@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "progress_line.hpp"
 
-#include <array>
 #include <cmath>
-#include <ctime>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -16,18 +14,6 @@ namespace {
 
 constexpr double k_terminal_interval = 0.2;  // s
 constexpr double k_plain_interval = 10.0;    // s
-
-/// Local clock time; with the day when it is more than 20 hours ahead.
-std::string clock_text(double utc_seconds, double seconds_ahead) {
-  const auto time = static_cast<std::time_t>(utc_seconds + seconds_ahead);
-  std::tm parts{};
-  if (::localtime_r(&time, &parts) == nullptr) return "?";
-  std::array<char, 64> text{};
-  const bool is_far = seconds_ahead > 20.0 * 3600.0;
-  if (is_far) std::strftime(text.data(), text.size(), "%a %d %b %H:%M", &parts);
-  if (!is_far) std::strftime(text.data(), text.size(), "%H:%M", &parts);
-  return text.data();
-}
 
 }  // namespace
 

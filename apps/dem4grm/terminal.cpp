@@ -6,7 +6,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdlib>
+#include <ctime>
 #include <iostream>
 #include <string_view>
 
@@ -44,6 +46,17 @@ int terminal_width() {
   winsize size{};
   if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
   return 80;
+}
+
+std::string clock_text(double utc_seconds, double seconds_ahead) {
+  const auto time = static_cast<std::time_t>(utc_seconds + seconds_ahead);
+  std::tm parts{};
+  if (::localtime_r(&time, &parts) == nullptr) return "?";
+  std::array<char, 64> text{};
+  const bool is_far = seconds_ahead > 20.0 * 3600.0;
+  if (is_far) std::strftime(text.data(), text.size(), "%a %d %b %H:%M", &parts);
+  if (!is_far) std::strftime(text.data(), text.size(), "%H:%M", &parts);
+  return text.data();
 }
 
 std::string duration_text(double seconds) {

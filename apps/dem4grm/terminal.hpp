@@ -18,6 +18,9 @@ bool is_error_stream_a_terminal();
 /// Columns of the terminal; 80 when unknown.
 int terminal_width();
 
+/// Local clock time so many seconds after a moment (s since 1970); with the day when it is more than 20 hours ahead.
+std::string clock_text(double utc_seconds, double seconds_ahead);
+
 /// "50 s", "12 min", "3.4 h" or "5.0 days".
 std::string duration_text(double seconds);
 
