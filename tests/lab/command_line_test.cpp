@@ -248,10 +248,11 @@ TEST_F(CommandLine, MicroReadsWhatTheRunRecorded) {
       folder_.path());
   EXPECT_EQ(script.exit_code, 0) << script.err;
   EXPECT_GT(std::filesystem::file_size(folder_ / "out/micro.png"), 10000U);
-  const std::string expected =
-      fmt::format("a {:.4f}, theta_a {:.3f} deg; a_n {:.4f}, theta_n {:.3f} deg; a_t {:.4f}, theta_t {:.3f} deg",
-                  number_in(all, "a"), number_in(all, "theta_a_deg"), number_in(all, "a_n"),
-                  number_in(all, "theta_n_deg"), number_in(all, "a_t"), number_in(all, "theta_t_deg"));
+  const std::string expected = fmt::format(
+      "a {:.4f}, theta_a {:.3f} deg; a_n {:.4f}, theta_n {:.3f} deg; a_t {:.4f}, theta_t {:.3f} deg; "
+      "a_s {:.4f}, theta_s {:.3f} deg",
+      number_in(all, "a"), number_in(all, "theta_a_deg"), number_in(all, "a_n"), number_in(all, "theta_n_deg"),
+      number_in(all, "a_t"), number_in(all, "theta_t_deg"), number_in(all, "a_s"), number_in(all, "theta_s_deg"));
   EXPECT_NE(script.out.find(expected), std::string::npos) << script.out << expected;
 
   expect(66, "there are states at 0, 0.2, 0.5, 1 mm", {"micro", "out", "--at", "7mm"});

@@ -69,6 +69,24 @@ void expect_consistent_micro(const std::vector<MicroRow>& rows, double rubber_co
   EXPECT_NEAR(last.of_all().normal_direction / degree, last.stress_direction / degree, 20.0);
 }
 
+/// The forces on the walls add up to what the record says of halves and plates, row by row.
+void expect_forces_of_walls(const DirectShearCase& test, const DirectShearResult& r) {
+  const double area = test.box.length * test.box.width;
+  for (const ShearRow& row : r.rows) {
+    Vec3 lower, upper;
+    for (std::size_t w = 0; w < row.wall_force.size(); ++w) {
+      (ShearBox::half_of(static_cast<int>(w)) == BoxHalf::lower ? lower : upper) += row.wall_force[w];
+    }
+    EXPECT_NEAR(-lower.x / area, row.shear_stress, 1e-6 * row.normal_stress);
+    EXPECT_NEAR(-(lower.x + upper.x) / area, row.half_force_difference, 1e-6 * row.normal_stress);
+    EXPECT_NEAR(-row.wall_force[ShearBox::k_bottom_plate].x / area, row.plate_shear_stress, 1e-6 * row.normal_stress);
+    EXPECT_NEAR(row.wall_force[ShearBox::k_top_plate].z / area, row.normal_stress, 1e-6 * row.normal_stress);
+    const double left = 1.0 - row.displacement / test.box.length;
+    EXPECT_NEAR(row.normal_stress_corrected * left, row.normal_stress, 1e-9 * row.normal_stress);
+    EXPECT_NEAR(row.shear_stress_corrected * left, row.shear_stress, 1e-9 * row.normal_stress);
+  }
+}
+
 class SmallShear : public testing::TestWithParam<double> {};
 
 TEST_P(SmallShear, HoldsItsStressLosesNothingAndBalances) {
@@ -101,6 +119,11 @@ TEST_P(SmallShear, HoldsItsStressLosesNothingAndBalances) {
   EXPECT_NEAR(listener.frame_displacements[1], 1.0e-3, 1e-5);
   EXPECT_EQ(listener.hashes.back(), r.state_hash);
   expect_consistent_micro(listener.micro, GetParam());
+  expect_forces_of_walls(test, r);
+  // Forces on the walls and stress from the contacts are two ways to one number; the box is a few grains wide.
+  const MicroNumbers& start = listener.micro.front().numbers;
+  EXPECT_NEAR(r.before.lateral.k0_x, start.stress_xx / start.stress_zz, 0.05);
+  EXPECT_NEAR(r.before.lateral.k0_y, start.stress_yy / start.stress_zz, 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Mixtures, SmallShear, testing::Values(0.0, 0.3, 1.0));

@@ -188,10 +188,14 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
     EXPECT_EQ(result->steps, expected.steps);
     EXPECT_EQ(result->specimen.void_ratio_prepared, expected.specimen.void_ratio_prepared);
     EXPECT_EQ(result->specimen.fill_overlap, expected.specimen.fill_overlap);
-    EXPECT_GT(result->homogeneity.fabric.contacts, 100);
-    EXPECT_EQ(result->homogeneity.fabric.deviator, expected.homogeneity.fabric.deviator);
-    EXPECT_EQ(result->homogeneity.layering_at_plates, expected.homogeneity.layering_at_plates);
-    EXPECT_EQ(result->homogeneity.overlap.largest, expected.homogeneity.overlap.largest);
+    EXPECT_GT(result->before.homogeneity.fabric.contacts, 100);
+    const Homogeneity &found = result->before.homogeneity, &wanted = expected.before.homogeneity;
+    EXPECT_EQ(found.fabric.deviator, wanted.fabric.deviator);
+    EXPECT_EQ(found.layering_at_plates, wanted.layering_at_plates);
+    EXPECT_EQ(found.overlap.largest, wanted.overlap.largest);
+    EXPECT_GT(result->before.lateral.k0_x, 0.1);
+    EXPECT_EQ(result->before.lateral.k0_x, expected.before.lateral.k0_x);
+    EXPECT_EQ(result->before.lateral.k0_y, expected.before.lateral.k0_y);
     EXPECT_EQ(result->specimen.time_step.limited_by, expected.specimen.time_step.limited_by);
   }
   omp_set_num_threads(before);

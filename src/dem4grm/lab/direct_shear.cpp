@@ -100,18 +100,20 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
   out.state_hash = s.state_hash();
 }
 
-/// How even the finished specimen is.
-Homogeneity examine(const DirectShearCase& test, const Specimen& specimen) {
+/// The finished specimen.
+BeforeShear examine(const DirectShearCase& test, const Specimen& specimen) {
   const Simulation& s = *specimen.simulation;
   const Bounds room{{}, {test.box.length, test.box.width, s.walls[ShearBox::k_top_plate].corner.z}};
-  return measure_homogeneity(packing_of(s), normals_of(contact_network_of(s).contacts), room, specimen.report.mean_size,
-                             test.rubber.density / test.rubber_solid_density);
+  return {measure_homogeneity(packing_of(s), normals_of(contact_network_of(s).contacts), room,
+                              specimen.report.mean_size, test.rubber.density / test.rubber_solid_density),
+          measure_lateral_stress(s, test.box)};
 }
 
-void warn_of_caught(const Homogeneity& found, LabObserver& observer) {
-  if (found.overlap.caught == 0) return;
-  observer.warning(fmt::format("{} ball centres lie inside other grains of the finished specimen; choose another seed",
-                               found.overlap.caught));
+void warn_of_caught(const BeforeShear& before, LabObserver& observer) {
+  const int caught = before.homogeneity.overlap.caught;
+  if (caught == 0) return;
+  observer.warning(
+      fmt::format("{} ball centres lie inside other grains of the finished specimen; choose another seed", caught));
 }
 
 PreparationHooks hooks_of(LabObserver& observer, StateArchive* from) {
@@ -153,18 +155,18 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
         "specimen.expected_void_ratio to {:.3f} for the right number of grains",
         specimen.report.height * 1e3, miss * 100.0, test.box.height * 1e3, specimen.report.void_ratio_before_shear));
   }
-  Homogeneity homogeneity;
+  BeforeShear before;
   if (!is_in_shear) {
-    homogeneity = examine(test, specimen);
-    warn_of_caught(homogeneity, observer);
+    before = examine(test, specimen);
+    warn_of_caught(before, observer);
   }
-  ShearStage stage(test, specimen, homogeneity, observer);
+  ShearStage stage(test, specimen, before, observer);
   stage.run(is_in_shear ? from : nullptr);
-  if (is_in_shear) warn_of_caught(homogeneity, observer);  // known again only now
+  if (is_in_shear) warn_of_caught(before, observer);  // known again only now
 
   DirectShearResult out;
   out.specimen = specimen.report;
-  out.homogeneity = homogeneity;
+  out.before = before;
   out.rows = stage.rows();
   out.micro_rows = stage.micro_rows();
   out.displacement = out.rows.empty() ? 0.0 : out.rows.back().displacement;

@@ -4,10 +4,10 @@
 
 #include <vector>
 
+#include "dem4grm/lab/before_shear.hpp"
 #include "dem4grm/lab/case.hpp"
 #include "dem4grm/lab/observer.hpp"
 #include "dem4grm/lab/shear_curve.hpp"
-#include "dem4grm/micro/homogeneity.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
@@ -15,7 +15,7 @@ namespace dem {
 /// What is left of a test beside its rows and frames; SI units.
 struct DirectShearResult {
   SpecimenReport specimen;
-  Homogeneity homogeneity;  ///< before shear
+  BeforeShear before;
   ShearCurve curve;
   std::vector<ShearRow> rows;
   std::vector<MicroRow> micro_rows;

@@ -2,6 +2,7 @@
 // What a test tells the outside while it runs. The lab declares it; files, progress lines and tests implement it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/micro/analysis.hpp"
 #include "dem4grm/specimen/specimen.hpp"
+#include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
 
@@ -30,8 +32,20 @@ struct Progress {
   double steps_to_last_stage = -1;  ///< estimate; below 0 when unknown
 };
 
+/// How shear stress and rise of the plate go together over a window of the record; not a number while it has but one row.
+/// formula:  shear_ratio = tau / sigma_n,  rate = dv / du,  friction = shear_ratio - rate
+///   tau, sigma_n  means over the window, Pa; over the area that is left they have the same quotient
+///   v, u          rise of the plate and displacement of the halves, m; slope of least squares
+/// Source: Taylor (1948). The work tau du of shear is spent in part on the rise of the load, sigma_n dv; what is left is
+/// friction of the grains. shear_ratio falls behind at the same pace as rate, since both look at one window.
+struct Dilatancy {
+  double shear_ratio = 0.0;
+  double rate = 0.0;  ///< dilation positive
+  double friction = 0.0;
+};
+
 /// One row of the record of a shear test: means over one interval of displacement, SI units. Compression and dilation
-/// (plate rising) positive.
+/// (plate rising) positive. Doubles only: a checkpoint holds the rows as they lie in memory.
 struct ShearRow {
   double displacement = 0.0;            ///< m, relative displacement of the halves at the end of the interval
   double shear_stress = 0.0;            ///< Pa, net x-force on the walls of the lower half over the nominal area
@@ -41,11 +55,14 @@ struct ShearRow {
   double void_ratio = 0.0;
   double inertial_number = 0.0;
   double unbalanced_ratio = 0.0;
-  double half_force_difference = 0.0;  ///< Pa, (lower half minus upper half) over the nominal area
-  double normal_stress_worst = 0.0;    ///< Pa, the single step farthest from the target
-  double plate_shear_stress = 0.0;     ///< Pa, share of the lower half's shear stress that its plate carries
-  double time_step = 0.0;              ///< s, at the end of the interval
-  EnergyReport energy;                 ///< J, since shear began
+  double half_force_difference = 0.0;    ///< Pa, (lower half minus upper half) over the nominal area
+  double normal_stress_worst = 0.0;      ///< Pa, the single step farthest from the target
+  double plate_shear_stress = 0.0;       ///< Pa, share of the lower half's shear stress that its plate carries
+  double time_step = 0.0;                ///< s, at the end of the interval
+  double normal_stress_corrected = 0.0;  ///< Pa, over the area that is left
+  Dilatancy dilatancy;                   ///< over the last k_dilatancy_window
+  EnergyReport energy;                   ///< J, since shear began
+  std::array<Vec3, ShearBox::k_walls> wall_force{};  ///< N, of the grains on each wall of the box
 };
 
 /// One row of a grain compression test: means over one interval, SI units.

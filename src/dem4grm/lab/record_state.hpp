@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "dem4grm/core/state_archive.hpp"
+#include "dem4grm/lab/before_shear.hpp"
 #include "dem4grm/lab/observer.hpp"
-#include "dem4grm/micro/homogeneity.hpp"
 
 namespace dem {
 
@@ -15,6 +15,6 @@ void exchange(StateArchive& archive, std::vector<FrameInfo>& frames);
 void exchange(StateArchive& archive, std::vector<ShearRow>& rows);
 void exchange(StateArchive& archive, std::vector<MicroRow>& rows);
 /// What was measured before shear, which cannot be measured any more.
-void exchange(StateArchive& archive, Homogeneity& homogeneity);
+void exchange(StateArchive& archive, BeforeShear& before);
 
 }  // namespace dem

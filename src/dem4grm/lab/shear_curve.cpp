@@ -26,6 +26,12 @@ double mean_stress(std::span<const ShearRow> rows) {
   return sum / static_cast<double>(rows.size());
 }
 
+double mean_normal_stress(std::span<const ShearRow> rows) {
+  double sum = 0.0;
+  for (const ShearRow& r : rows) sum += r.normal_stress;
+  return sum / static_cast<double>(rows.size());
+}
+
 /// Least-squares slope of the plate's height against displacement.
 double rise(std::span<const ShearRow> rows) {
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
@@ -39,7 +45,42 @@ double rise(std::span<const ShearRow> rows) {
   return spread > 0.0 ? (sxy - sx * sy / n) / spread : 0.0;
 }
 
+/// The rows of a window; its displacement is the middle of what they were averaged over.
+Stage stage_of(std::span<const ShearRow> rows, std::size_t begin, std::size_t last) {
+  const double before = begin > 0 ? rows[begin - 1].displacement : 0.0;
+  return {0.5 * (before + rows[last].displacement), dilatancy_of(rows.subspan(begin, last + 1 - begin))};
+}
+
+/// Rows of [0, k_dilatancy_window] and later, for a record that is that long.
+void read_dilatancy(std::span<const ShearRow> rows, ShearCurve& c) {
+  for (const ShearRow& r : rows) {
+    if (-r.vertical_displacement <= c.contraction) continue;
+    c.contraction = -r.vertical_displacement;
+    c.displacement_at_contraction = r.displacement;
+  }
+  c.residual = stage_of(rows, window_begin(rows, rows.size() - 1, k_residual_zone), rows.size() - 1);
+  for (std::size_t last = 0; last < rows.size(); ++last) {
+    if (rows[last].displacement < 0.999 * k_dilatancy_window) continue;
+    const Stage now = stage_of(rows, window_begin(rows, last, k_dilatancy_window), last);
+    const auto off_peak = [&](const Stage& s) { return std::fabs(s.displacement - c.displacement_at_peak); };
+    if (!(off_peak(c.at_peak) <= off_peak(now))) c.at_peak = now;
+    if (!(c.fastest_dilation.dilatancy.rate >= now.dilatancy.rate)) c.fastest_dilation = now;
+  }
+}
+
 }  // namespace
+
+Dilatancy dilatancy_of(std::span<const ShearRow> rows) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (rows.size() < 2) return {nan, nan, nan};
+  const double ratio = mean_stress(rows) / mean_normal_stress(rows), rate = rise(rows);
+  return {ratio, rate, ratio - rate};
+}
+
+Dilatancy last_dilatancy(std::span<const ShearRow> rows) {
+  if (rows.empty()) return dilatancy_of(rows);
+  return dilatancy_of(rows.subspan(window_begin(rows, rows.size() - 1, k_dilatancy_window)));
+}
 
 ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
   ShearCurve c;
@@ -67,6 +108,7 @@ ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
   if (half != rows.end() && half->displacement > 0.0) c.secant_stiffness = half->shear_stress / half->displacement;
   if (steepest > -1e300) c.dilation_angle = std::atan(steepest);
   c.vertical_displacement_at_end = rows.back().vertical_displacement;
+  read_dilatancy(rows, c);
   return c;
 }
 

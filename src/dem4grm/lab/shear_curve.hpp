@@ -2,11 +2,27 @@
 // What an engineer reads off a shear record.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "dem4grm/lab/observer.hpp"
 
 namespace dem {
+
+/// Displacement over which shear stress and rise of the plate are read together, m.
+inline constexpr double k_dilatancy_window = 0.5e-3;
+
+/// Over all these rows.
+Dilatancy dilatancy_of(std::span<const ShearRow> rows);
+/// Over the last k_dilatancy_window of these rows, or as much of it as there is.
+Dilatancy last_dilatancy(std::span<const ShearRow> rows);
+
+/// SI units; angles in radians; not a number where the record is too short.
+struct Stage {
+  double displacement = std::numeric_limits<double>::quiet_NaN();  ///< m, middle of the window
+  Dilatancy dilatancy{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                      std::numeric_limits<double>::quiet_NaN()};
+};
 
 /// SI units; angles in radians.
 struct ShearCurve {
@@ -17,6 +33,11 @@ struct ShearCurve {
   double secant_stiffness = 0.0;              ///< Pa/m, at the first point that reaches half the peak
   double dilation_angle = 0.0;                ///< of the steepest rise of the plate over 1 mm
   double vertical_displacement_at_end = 0.0;  ///< m
+  double contraction = 0.0;                   ///< m, deepest place of the plate below its start; 0 when it never sinks
+  double displacement_at_contraction = 0.0;   ///< m, there
+  Stage at_peak;                              ///< window around displacement_at_peak
+  Stage fastest_dilation;                     ///< window of the largest rate
+  Stage residual;                             ///< the last 2 mm
 };
 
 /// Rows in order of displacement, at equal intervals. Less than 0.1 mm of record gives zeros.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/quantity.hpp"
@@ -13,6 +14,7 @@
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/record_state.hpp"
+#include "dem4grm/lab/shear_curve.hpp"
 #include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
@@ -25,13 +27,21 @@ constexpr double k_start_ramp = 2e-5;  // m
 /// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
 constexpr double k_longest_over_prepared = 2.0;
 
+void exchange_forces(StateArchive& archive, std::array<Vec3, ShearBox::k_walls>& forces) {
+  std::vector<double> numbers;
+  for (const Vec3& f : forces) numbers.insert(numbers.end(), {f.x, f.y, f.z});
+  archive.exchange("on_wall", numbers);
+  if (numbers.size() != 3 * forces.size()) throw IoError("the saved forces on the walls are not those of a shear box");
+  for (std::size_t w = 0; w < forces.size(); ++w) forces[w] = {numbers[3 * w], numbers[3 * w + 1], numbers[3 * w + 2]};
+}
+
 }  // namespace
 
-ShearStage::ShearStage(const DirectShearCase& test, Specimen& specimen, Homogeneity& homogeneity, LabObserver& observer)
+ShearStage::ShearStage(const DirectShearCase& test, Specimen& specimen, BeforeShear& before, LabObserver& observer)
     : test_(test),
       specimen_(specimen),
       s_(*specimen.simulation),
-      homogeneity_(homogeneity),
+      before_(before),
       observer_(observer),
       frames_(state_displacements(test)),
       micro_(micro_displacements(test)),
@@ -92,8 +102,9 @@ void ShearStage::advance() {
   displacement_ += v * ramp * s_.dt;
   review_time_step(s_, k_longest_over_prepared * specimen_.report.time_step.seconds);
   for (int w = 0; w < ShearBox::k_walls; ++w) {
-    const double fx = s_.reactions[static_cast<std::size_t>(w)].force.x;
-    (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += fx;
+    const Vec3& force = s_.reactions[static_cast<std::size_t>(w)].force;
+    (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += force.x;
+    sums_.on_wall[static_cast<std::size_t>(w)] += force;
   }
   sums_.bottom_plate += s_.reactions[ShearBox::k_bottom_plate].force.x;
   const double normal = plate_stress(s_, specimen_.load), target = test_.shear.normal_stress;
@@ -110,10 +121,12 @@ void ShearStage::finish_row() {
   row.displacement = displacement_;
   // The lower half moves to +x against the grains, which push it back: its shear stress is minus their force.
   row.shear_stress = -sums_.lower / n / area;
-  row.shear_stress_corrected = row.shear_stress * test_.box.length / (test_.box.length - displacement_);
+  const double of_nominal_area = test_.box.length / (test_.box.length - displacement_);
+  row.shear_stress_corrected = row.shear_stress * of_nominal_area;
   row.half_force_difference = -(sums_.lower + sums_.upper) / n / area;
   row.plate_shear_stress = -sums_.bottom_plate / n / area;
   row.normal_stress = sums_.normal / n;
+  row.normal_stress_corrected = row.normal_stress * of_nominal_area;
   row.normal_stress_worst = sums_.worst_normal;
   row.vertical_displacement = plate_height() - start_height_;
   row.void_ratio = plate_void_ratio(s_, specimen_.load);
@@ -121,9 +134,11 @@ void ShearStage::finish_row() {
   row.unbalanced_ratio = balance(s_).ratio();
   row.time_step = s_.dt;
   row.energy = since_start(s_.energy());
+  for (std::size_t w = 0; w < sums_.on_wall.size(); ++w) row.wall_force[w] = sums_.on_wall[w] * (1.0 / n);
   rows_.push_back(row);
+  rows_.back().dilatancy = last_dilatancy(rows_);
   sums_ = {};
-  observer_.shear_row(row);
+  observer_.shear_row(rows_.back());
   report();
 }
 
@@ -195,13 +210,14 @@ void ShearStage::exchange_all(StateArchive& archive) {
   archive.exchange("start_height", start_height_);
   archive.group("start_energy", [&] { exchange(archive, start_energy_); });
   archive.exchange("steps", shear_steps_);
-  archive.group("homogeneity", [&] { exchange(archive, homogeneity_); });
+  archive.group("before", [&] { exchange(archive, before_); });
   archive.group("sums", [&] {
     archive.exchange("lower", sums_.lower);
     archive.exchange("upper", sums_.upper);
     archive.exchange("normal", sums_.normal);
     archive.exchange("bottom_plate", sums_.bottom_plate);
     archive.exchange("worst_normal", sums_.worst_normal);
+    exchange_forces(archive, sums_.on_wall);
     archive.exchange("steps", sums_.steps);
   });
   exchange(archive, written_frames_);

@@ -2,12 +2,13 @@
 // The shear of a finished specimen: moves the halves, records, and can stop and go on at any look of the watchdog.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "dem4grm/lab/before_shear.hpp"
 #include "dem4grm/lab/case.hpp"
 #include "dem4grm/lab/observer.hpp"
-#include "dem4grm/micro/homogeneity.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
@@ -15,7 +16,7 @@ namespace dem {
 class ShearStage {
  public:
   /// All four must live as long as the stage.
-  ShearStage(const DirectShearCase& test, Specimen& specimen, Homogeneity& homogeneity, LabObserver& observer);
+  ShearStage(const DirectShearCase& test, Specimen& specimen, BeforeShear& before, LabObserver& observer);
 
   /// From the beginning when `from` is null, else from the state in it. Throws PhysicsError when the watchdog finds
   /// trouble; the observer may throw to stop.
@@ -28,6 +29,7 @@ class ShearStage {
   /// Sums over one interval of the record: forces (N), stresses (Pa).
   struct IntervalSums {
     double lower = 0.0, upper = 0.0, normal = 0.0, bottom_plate = 0.0, worst_normal = 0.0;
+    std::array<Vec3, ShearBox::k_walls> on_wall{};
     int steps = 0;
   };
 
@@ -50,7 +52,7 @@ class ShearStage {
   const DirectShearCase& test_;
   Specimen& specimen_;
   Simulation& s_;
-  Homogeneity& homogeneity_;
+  BeforeShear& before_;
   LabObserver& observer_;
   std::vector<double> frames_, micro_;  ///< m, where states and micro-mechanics are recorded
   double velocity_ = 0.0;               ///< m/s, of the halves against each other

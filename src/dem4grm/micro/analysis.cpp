@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/micro/analysis.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "dem4grm/core/error.hpp"
@@ -35,6 +36,14 @@ SetNumbers numbers_of_set(std::span<const Contact> contacts, const PolarHistogra
   out.shear_amplitude = shear.amplitude(mean);
   out.shear_direction = shear.fit.direction;
   out.shear_residual = shear.fit.residual;
+  const ForceAnisotropy second = second_shear_harmonic(histogram);
+  out.shear_second_amplitude = second.amplitude(mean);
+  out.shear_second_direction = second.fit.direction;
+  const SignedShearAnisotropy signed_shear = signed_shear_anisotropy(histogram, mean);
+  out.signed_shear_amplitude = signed_shear.amplitude;
+  out.signed_shear_direction = signed_shear.direction;
+  out.signed_shear_fourth = signed_shear.fourth;
+  out.signed_shear_residual = signed_shear.residual;
   out.empty_bins = normal.fit.empty_bins;
   return out;
 }
@@ -95,8 +104,17 @@ void take_connectivity(const ContactNetwork& network, MicroNumbers& n) {
   n.rattlers_rubber = c.rattlers_rubber;
 }
 
-void take_rubber(const RubberState& state, MicroNumbers& n) {
+/// After the stress, whose major axis it reads.
+void take_rubber(const MicroState& all, MicroNumbers& n) {
+  const RubberState& state = all.rubber;
   const RubberReport r = rubber_report(state);
+  n.bond_strain_compressed = r.bond_strain_compressed;
+  n.bonds_compressed = r.bonds_compressed;
+  const NeighbourStrain beside = strain_by_neighbour(r.grain_bond_strain, all.network);
+  n.bond_strain_at_gravel = beside.at_gravel;
+  n.bond_strain_at_rubber = beside.at_rubber;
+  n.grain_strain_major = mean_strain_along(state, {std::cos(n.stress_direction), 0.0, std::sin(n.stress_direction)});
+  n.grain_strain_vertical = mean_strain_along(state, {0.0, 0.0, 1.0});
   n.bond_strain = r.bond_strain.mean;
   n.bond_strain_deviation = r.bond_strain.deviation;
   n.bond_strain_p05 = r.bond_strain.p05;
@@ -139,7 +157,7 @@ MicroAnalysis analyse(const MicroState& state, const MicroOptions& options) {
   take_strong(network, contacts, out);
   take_stress(network, contacts, out);
   take_connectivity(network, out.numbers);
-  take_rubber(state.rubber, out.numbers);
+  take_rubber(state, out.numbers);
   return out;
 }
 

@@ -46,6 +46,12 @@ struct SetNumbers {
   double shear_amplitude = 0.0;  ///< a_t
   double shear_direction = 0.0;  ///< theta_t, [0, pi/2)
   double shear_residual = 0.0;
+  double shear_second_amplitude = 0.0;  ///< a_t2
+  double shear_second_direction = 0.0;  ///< theta_t2, [0, pi)
+  double signed_shear_amplitude = 0.0;  ///< a_s
+  double signed_shear_direction = 0.0;  ///< theta_s, [0, pi)
+  double signed_shear_fourth = 0.0;
+  double signed_shear_residual = 0.0;
   double empty_bins = 0.0;         ///< of the half circle
   double sliding = 0.0;            ///< share of the contacts at their Coulomb limit
   double bulk_friction = 0.0;      ///< sum |f_t| / sum |f_n|
@@ -76,6 +82,9 @@ struct MicroNumbers {
   double fabric_direction_spatial = 0.0, fabric_amplitude_spatial = 0.0;  ///< of the fabric tensor, projected
   double bond_strain = 0.0, bond_strain_deviation = 0.0, bond_strain_p05 = 0.0, bond_strain_p50 = 0.0,
          bond_strain_p95 = 0.0;
+  double bond_strain_compressed = 0.0, bonds_compressed = 0.0;  ///< of the bonds under compression, and their share
+  double bond_strain_at_gravel = 0.0, bond_strain_at_rubber = 0.0;
+  double grain_strain_major = 0.0, grain_strain_vertical = 0.0;
   double bond_force = 0.0, bond_force_size = 0.0;  ///< N
   double bond_moment = 0.0;                        ///< N m
   double volume_strain = 0.0, volume_strain_deviation = 0.0;

@@ -15,19 +15,21 @@
 namespace dem {
 namespace {
 
-constexpr std::size_t k_values = 6;
+constexpr std::size_t k_values = 8;
 constexpr double k_outside = 0.025;  // on either side of the band
 
-/// Amplitude and direction of fabric, normal and shear force.
+/// Amplitude and direction of fabric, normal, shear and signed shear force.
 using Anisotropies = std::array<double, k_values>;
 /// Period of each of them; 0: no angle.
-constexpr Anisotropies k_period{0.0, std::numbers::pi, 0.0, std::numbers::pi, 0.0, 0.5 * std::numbers::pi};
+constexpr Anisotropies k_period{0.0, std::numbers::pi,       0.0, std::numbers::pi,
+                                0.0, 0.5 * std::numbers::pi, 0.0, std::numbers::pi};
 
 Anisotropies anisotropies_of(const PolarHistogram& histogram, ForceMean mean) {
   const HarmonicFit fabric = fabric_anisotropy(histogram);
   const ForceAnisotropy normal = normal_force_anisotropy(histogram), shear = shear_force_anisotropy(histogram);
-  return {fabric.amplitude,     fabric.direction,      normal.amplitude(mean),
-          normal.fit.direction, shear.amplitude(mean), shear.fit.direction};
+  const SignedShearAnisotropy signed_shear = signed_shear_anisotropy(histogram, mean);
+  return {fabric.amplitude,      fabric.direction,    normal.amplitude(mean), normal.fit.direction,
+          shear.amplitude(mean), shear.fit.direction, signed_shear.amplitude, signed_shear.direction};
 }
 
 /// As many samples as there are, drawn with replacement.
@@ -41,6 +43,7 @@ PolarHistogram draw(std::span<const PolarSample> samples, std::span<const std::s
     out.counts[bins[drawn]] += 1.0;
     out.normal_sum[bins[drawn]] += samples[drawn].normal_force;
     out.shear_sum[bins[drawn]] += samples[drawn].shear_force;
+    out.signed_shear_sum[bins[drawn]] += samples[drawn].signed_shear;
   }
   return out;
 }
@@ -76,7 +79,7 @@ AnisotropyBands bootstrap_bands(std::span<const PolarSample> samples, const Micr
   }
   std::array<Band, k_values> bands;
   for (std::size_t v = 0; v < k_values; ++v) bands[v] = band_of(std::move(drawn[v]));
-  return {bands[0], bands[1], bands[2], bands[3], bands[4], bands[5]};
+  return {bands[0], bands[1], bands[2], bands[3], bands[4], bands[5], bands[6], bands[7]};
 }
 
 }  // namespace dem

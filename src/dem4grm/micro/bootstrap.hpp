@@ -20,6 +20,7 @@ struct AnisotropyBands {
   Band fabric_amplitude, fabric_direction;
   Band normal_amplitude, normal_direction;
   Band shear_amplitude, shear_direction;
+  Band signed_shear_amplitude, signed_shear_direction;
 };
 
 /// Percentile bootstrap: options.resamples times as many samples as there are are drawn with replacement, from the stream

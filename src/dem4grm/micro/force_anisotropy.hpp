@@ -32,6 +32,25 @@ ForceAnisotropy normal_force_anisotropy(const PolarHistogram& histogram);
 /// Source: Chew et al. (2022).
 ForceAnisotropy shear_force_anisotropy(const PolarHistogram& histogram);
 
+/// The second harmonic of |f_t| beside the fourth: f_t(theta) = f_t0 {1 + a_t2 cos 2(theta - theta_t2)}. Tangential forces
+/// follow the normal forces that limit them, so it exists wherever a_n does.
+ForceAnisotropy second_shear_harmonic(const PolarHistogram& histogram);
+
+/// The tangential force with its sign: what a contact adds to the stress by it.
+struct SignedShearAnisotropy {
+  double amplitude = 0.0;  ///< a_s, relative to f_n0
+  double direction = 0.0;  ///< theta_s, rad in [0, pi)
+  double fourth = 0.0;     ///< amplitude of the fourth harmonic of the signed force over f_n0
+  double residual = 0.0;   ///< root mean square of bin minus the curve of the second harmonic, over f_n0
+};
+
+/// f_s(theta) = -f_n0 a_s sin 2(theta - theta_s), f_s(theta_b) the mean over bin b of the tangential force of i on j within
+/// the shear plane, positive towards growing theta; f_n0 the mean normal force over the same choice (orientations or contacts).
+///   theta_s  the major axis of the stress to which these forces belong
+/// In two dimensions sin(phi) = (a + a_n + a_s) / 2 where the three axes agree.
+/// Source: Rothenburg & Bathurst (1989).
+SignedShearAnisotropy signed_shear_anisotropy(const PolarHistogram& histogram, ForceMean mean);
+
 /// Mean forces of the bins, N; 0 for a bin without contacts.
 std::vector<double> bin_means(const PolarHistogram& histogram, const std::vector<double>& sums);
 

@@ -54,6 +54,13 @@ Coefficients by_least_squares(std::span<const double> values, std::span<const un
 
 }  // namespace
 
+double angle_of(double cosine, double sine, int k) {
+  const double period = 2.0 * k_pi / k, angle = std::atan2(sine, cosine) / k;
+  return angle < 0.0 ? std::fmod(angle + period, period) : angle;
+}
+
+double Harmonic::amplitude() const { return std::hypot(cosine, sine) / damping; }
+
 double PolarHistogram::bin_width() const { return 2.0 * k_pi / bins; }
 double PolarHistogram::bin_centre(std::size_t bin) const { return (static_cast<double>(bin) + 0.5) * bin_width(); }
 
@@ -73,9 +80,13 @@ std::vector<PolarSample> polar_samples(std::span<const Contact> contacts, const 
     double x = c.normal.x, z = c.normal.z;
     if (x == 0.0 && z == 0.0) continue;
     // One of n and -n, always the same one: then the exchange of i and j changes no bit.
-    if (z < 0.0 || (z == 0.0 && x < 0.0)) x = -x, z = -z;
+    const bool is_turned = z < 0.0 || (z == 0.0 && x < 0.0);
+    if (is_turned) x = -x, z = -z;
     const double angle = std::atan2(z, x);
-    samples.push_back({angle < k_pi ? std::fabs(angle) : 0.0, c.normal_force, norm(c.shear_force)});
+    const Vec3 across{-z, 0.0, x};
+    const double signed_shear = dot(c.shear_force, across) / std::hypot(x, z);  // of j on i
+    samples.push_back({angle < k_pi ? std::fabs(angle) : 0.0, c.normal_force, norm(c.shear_force),
+                       is_turned ? signed_shear : 0.0 - signed_shear});
   }
   return samples;
 }
@@ -93,16 +104,18 @@ PolarHistogram polar_histogram(std::span<const PolarSample> samples, int bins) {
   out.counts.resize(half);
   out.normal_sum.resize(half);
   out.shear_sum.resize(half);
+  out.signed_shear_sum.resize(half);
   for (const PolarSample& sample : samples) {
     const std::size_t b = bin_of(sample.angle, bins);
     out.counts[b] += 1.0;
     out.normal_sum[b] += sample.normal_force;
     out.shear_sum[b] += sample.shear_force;
+    out.signed_shear_sum[b] += sample.signed_shear;
   }
   return out;
 }
 
-HarmonicFit fit_harmonic(std::span<const double> values, std::span<const unsigned char> has_value, int bins, int k) {
+Harmonic find_harmonic(std::span<const double> values, std::span<const unsigned char> has_value, int bins, int k) {
   require(values.size() == static_cast<std::size_t>(bins / 2),
           "a histogram has a value for each bin of the half circle");
   const double w = 2.0 * k_pi / bins;
@@ -112,18 +125,13 @@ HarmonicFit fit_harmonic(std::span<const double> values, std::span<const unsigne
     c[b] = std::cos(phase);
     s[b] = std::sin(phase);
   }
-  HarmonicFit out;
+  Harmonic out;
   out.empty_bins = static_cast<int>(std::count(has_value.begin(), has_value.end(), 0));
   const Coefficients f = out.empty_bins == 0 ? by_integrals(values, c, s) : by_least_squares(values, has_value, c, s);
-  const double damping = std::sin(0.5 * k * w) / (0.5 * k * w);
   out.mean = f.mean;
-  if (f.mean == 0.0) {
-    out.amplitude = out.direction = out.residual = std::numeric_limits<double>::quiet_NaN();
-    return out;
-  }
-  out.amplitude = std::hypot(f.cosine, f.sine) / f.mean / damping;
-  const double period = 2.0 * k_pi / k, direction = std::atan2(f.sine, f.cosine) / k;
-  out.direction = direction < 0.0 ? std::fmod(direction + period, period) : direction;
+  out.cosine = f.cosine;
+  out.sine = f.sine;
+  out.damping = std::sin(0.5 * k * w) / (0.5 * k * w);
   double square = 0.0, used = 0.0;
   for (std::size_t b = 0; b < values.size(); ++b) {
     if (!has_value.empty() && has_value[b] == 0) continue;
@@ -131,7 +139,22 @@ HarmonicFit fit_harmonic(std::span<const double> values, std::span<const unsigne
     square += off * off;
     used += 1.0;
   }
-  out.residual = std::sqrt(square / used) / f.mean;
+  out.residual = std::sqrt(square / used);
+  return out;
+}
+
+HarmonicFit fit_harmonic(std::span<const double> values, std::span<const unsigned char> has_value, int bins, int k) {
+  const Harmonic f = find_harmonic(values, has_value, bins, k);
+  HarmonicFit out;
+  out.mean = f.mean;
+  out.empty_bins = f.empty_bins;
+  if (f.mean == 0.0) {
+    out.amplitude = out.direction = out.residual = std::numeric_limits<double>::quiet_NaN();
+    return out;
+  }
+  out.amplitude = std::hypot(f.cosine, f.sine) / f.mean / f.damping;
+  out.direction = angle_of(f.cosine, f.sine, k);
+  out.residual = f.residual / f.mean;
   return out;
 }
 

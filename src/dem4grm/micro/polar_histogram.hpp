@@ -18,6 +18,7 @@ struct PolarSample {
   double angle = 0.0;         ///< rad, [0, pi)
   double normal_force = 0.0;  ///< N
   double shear_force = 0.0;   ///< N, magnitude of the whole vector
+  double signed_shear = 0.0;  ///< N, tangential force within the plane, of i on j, along (-sin angle, cos angle)
 };
 
 /// The contacts that an analysis of the plane looks at: all, or those with |n_y| < k_near_plane.
@@ -28,10 +29,10 @@ std::vector<PolarSample> polar_samples(std::span<const Contact> contacts, const 
 
 /// Numbers and sums of forces of the samples in each bin.
 struct PolarHistogram {
-  int bins = 0;                               ///< of the full circle
-  double count = 0.0;                         ///< of all samples
-  std::vector<double> counts;                 ///< [bins / 2]
-  std::vector<double> normal_sum, shear_sum;  ///< [bins / 2] N
+  int bins = 0;                                                 ///< of the full circle
+  double count = 0.0;                                           ///< of all samples
+  std::vector<double> counts;                                   ///< [bins / 2]
+  std::vector<double> normal_sum, shear_sum, signed_shear_sum;  ///< [bins / 2] N
 
   [[nodiscard]] double bin_width() const;                  ///< rad
   [[nodiscard]] double bin_centre(std::size_t bin) const;  ///< rad
@@ -40,6 +41,19 @@ PolarHistogram polar_histogram(std::span<const PolarSample> samples, int bins);
 
 /// Where a sample goes.
 std::size_t bin_of(double angle, int bins);
+
+/// f(theta) = mean + cosine cos k theta + sine sin k theta, unit of the values.
+struct Harmonic {
+  double mean = 0.0, cosine = 0.0, sine = 0.0;  ///< as bins of that width show them
+  double damping = 1.0;                         ///< d below
+  double residual = 0.0;                        ///< root mean square of (bin - curve)
+  int empty_bins = 0;                           ///< of the half circle
+
+  /// Of the function itself, not of its means over bins.
+  [[nodiscard]] double amplitude() const;
+};
+/// The coefficients of fit_harmonic without its reference to the mean, for values whose mean may vanish.
+Harmonic find_harmonic(std::span<const double> values, std::span<const unsigned char> has_value, int bins, int k);
 
 /// f(theta) = mean {1 + amplitude cos k(theta - direction)}.
 struct HarmonicFit {
@@ -59,6 +73,9 @@ struct HarmonicFit {
 /// when there is no gap. Not a number when fewer than three bins of different phase have values or the mean is 0.
 /// values [bins / 2]; has_value [bins / 2], empty when all have.
 HarmonicFit fit_harmonic(std::span<const double> values, std::span<const unsigned char> has_value, int bins, int k);
+
+/// Where cosine cos k theta + sine sin k theta is largest, rad in [0, 2 pi / k).
+double angle_of(double cosine, double sine, int k);
 
 /// Value of the fit at an angle.
 double value_at(const HarmonicFit& fit, int k, double angle);

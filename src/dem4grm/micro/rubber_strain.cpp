@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "dem4grm/micro/tensor.hpp"
 
@@ -109,13 +110,76 @@ int closed_second_neighbours(std::span<const Vec3> balls, double rest_length) {
   return closed;
 }
 
+namespace {
+
+/// strain: of all bonds that are not broken.
+void take_compressed_bonds(std::span<const double> strain, RubberReport& out) {
+  double compressed = 0.0, sum = 0.0;
+  for (const double e : strain) {
+    if (!(e > 0.0)) continue;
+    sum += e;
+    compressed += 1.0;
+  }
+  out.bond_strain_compressed = sum / compressed;
+  out.bonds_compressed = compressed / static_cast<double>(strain.size());
+}
+
+}  // namespace
+
+NeighbourStrain strain_by_neighbour(std::span<const double> grain_bond_strain, const ContactNetwork& network) {
+  std::vector<std::pair<int, int>> pairs;  // rubber grain and what it touches
+  const auto n_grains = static_cast<int>(grain_bond_strain.size());
+  for (const Contact& c : network.contacts) {
+    if (c.body_i < n_grains) pairs.emplace_back(c.body_i, c.body_j);
+    if (c.body_j < n_grains) pairs.emplace_back(c.body_j, c.body_i);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  NeighbourStrain sum, count;
+  for (const auto& [grain, other] : pairs) {
+    const bool is_rubber = network.body_material[static_cast<std::size_t>(other)] == k_rubber;
+    (is_rubber ? sum.at_rubber : sum.at_gravel) += grain_bond_strain[static_cast<std::size_t>(grain)];
+    (is_rubber ? count.at_rubber : count.at_gravel) += 1.0;
+  }
+  return {sum.at_gravel / count.at_gravel, sum.at_rubber / count.at_rubber};
+}
+
+Tensor3 deformation_of(std::span<const Vec3> balls, double rest_length) {
+  const double a = 2.0 * rest_length / std::numbers::sqrt3;
+  Vec3 mean;
+  for (const Vec3& x : balls) mean += x * (1.0 / k_grain_balls);
+  Tensor3 product;
+  double spread = 0.0;
+  for (int slot = 0; slot < k_grain_balls; ++slot) {
+    const Vec3 at_rest = grain_site(slot) * a;
+    product += outer(balls[static_cast<std::size_t>(slot)] - mean, at_rest);
+    spread += at_rest.x * at_rest.x;
+  }
+  return product * (1.0 / spread);
+}
+
+double strain_along(const Tensor3& deformation, const Vec3& m) { return 1.0 - 1.0 / norm(solve(deformation, m)); }
+
+double mean_strain_along(const RubberState& state, const Vec3& m) {
+  double sum = 0.0;
+  for (std::size_t g = 0; g < state.n_grains(); ++g) {
+    const auto balls = std::span(state.ball_position).subspan(g * k_grain_balls, k_grain_balls);
+    sum += strain_along(deformation_of(balls, state.rest_length[g]), m);
+  }
+  return sum / static_cast<double>(state.n_grains());
+}
+
 RubberReport rubber_report(const RubberState& state) {
   std::vector<double> bond_strain, volume_strain, aspect_ratio;
   RubberReport out;
   double bonds = 0.0;
+  std::vector<double> whole_bonds(state.n_grains());
+  out.grain_bond_strain.resize(state.n_grains());
   for (std::size_t b = 0; b < state.bond_length.size(); ++b) {
     if (state.is_broken[b] != 0) continue;
     bond_strain.push_back(1.0 - state.bond_length[b] / state.rest_length[b / k_grain_bonds]);
+    out.grain_bond_strain[b / k_grain_bonds] += bond_strain.back();
+    whole_bonds[b / k_grain_bonds] += 1.0;
     out.bond_force += state.bond_normal_force[b];
     out.bond_force_size += std::fabs(state.bond_normal_force[b]);
     out.bond_moment += state.bond_moment[b];
@@ -133,6 +197,8 @@ RubberReport rubber_report(const RubberState& state) {
   out.bond_force_size /= bonds;
   out.bond_moment /= bonds;
   out.closed_second_neighbours /= static_cast<double>(n_grains);
+  for (std::size_t g = 0; g < n_grains; ++g) out.grain_bond_strain[g] /= whole_bonds[g];
+  take_compressed_bonds(bond_strain, out);
   out.bond_strain = distribution_of(std::move(bond_strain));
   out.volume_strain = distribution_of(std::move(volume_strain));
   out.aspect_ratio = distribution_of(std::move(aspect_ratio));

@@ -8,6 +8,8 @@
 
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/grains/rubber_grain.hpp"
+#include "dem4grm/micro/contact_network.hpp"
+#include "dem4grm/micro/tensor.hpp"
 
 namespace dem {
 
@@ -37,6 +39,9 @@ Distribution distribution_of(std::vector<double> values);
 struct RubberReport {
   /// (L0 - L) / L0 of the bonds that are not broken, compression positive. Source: Chew et al. (2022).
   Distribution bond_strain;
+  double bond_strain_compressed = 0.0;    ///< mean over those of them that are shorter than at rest
+  double bonds_compressed = 0.0;          ///< their share
+  std::vector<double> grain_bond_strain;  ///< [n_grains] mean over the bonds of a grain that are not broken
   double bond_force = 0.0;                ///< N, mean normal force of the bonds, compression positive
   double bond_force_size = 0.0;           ///< N, mean of its magnitude
   double bond_moment = 0.0;               ///< N m, mean of the magnitudes
@@ -47,6 +52,26 @@ struct RubberReport {
 
 /// Not a number where there is no rubber.
 RubberReport rubber_report(const RubberState& state);
+
+/// Mean bond strain of the rubber as its neighbours meet it: each pair of a rubber grain and a body that it touches counts
+/// once, with the grain's mean bond strain. Not a number without such a pair.
+struct NeighbourStrain {
+  double at_gravel = 0.0, at_rubber = 0.0;
+};
+/// grain_bond_strain [n_grains], of the bodies 0 ... n_grains - 1 of the network.
+NeighbourStrain strain_by_neighbour(std::span<const double> grain_bond_strain, const ContactNetwork& network);
+
+/// Homogeneous part of the deformation of a grain.
+///   formula:  F = sum (x - x_mean) X^T / (sum X X^T),  the least squares of x = x_mean + F X over its 35 balls
+///   x, X      places now and at rest, m; at rest the spread sum X X^T of a cubic grain is a multiple of 1
+/// balls: the 35 of one grain, m.
+Tensor3 deformation_of(std::span<const Vec3> balls, double rest_length);
+
+/// Compressive strain of the line of the grain that now lies along the unit vector m: 1 - 1 / |F^-1 m|.
+double strain_along(const Tensor3& deformation, const Vec3& m);
+
+/// Mean of it over the grains; not a number without rubber.
+double mean_strain_along(const RubberState& state, const Vec3& m);
 
 /// Volume inside the 24 outer faces of the eight cells, corners at the 27 corner balls; m3.
 ///   formula:  V = (1/6) sum r_1 . (r_2 x r_3) over triangles, each face as the mean of its two ways into triangles,

@@ -22,6 +22,14 @@ double along(const Tensor3& a, const Vec3& n) {
   return dot(n, an);
 }
 
+Vec3 solve(const Tensor3& a, const Vec3& b) {
+  const auto& v = a.value;
+  const Vec3 first{v[0], v[3], v[6]}, second{v[1], v[4], v[7]}, third{v[2], v[5], v[8]};  // columns
+  const double determinant = dot(first, cross(second, third));
+  return Vec3{dot(b, cross(second, third)), dot(first, cross(b, third)), dot(first, cross(second, b))} *
+         (1.0 / determinant);
+}
+
 double deviator_size(const Tensor3& a) {
   double sum = 0.0;
   for (const double v : deviator(symmetric_part(a)).value) sum += v * v;

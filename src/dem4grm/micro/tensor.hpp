@@ -52,6 +52,9 @@ Tensor3 symmetric_part(const Tensor3& a);
 /// n . a n.
 double along(const Tensor3& a, const Vec3& n);
 
+/// x of a x = b; not a number when the rows of a lie in one plane.
+Vec3 solve(const Tensor3& a, const Vec3& b);
+
 /// formula:  q = sqrt(3/2 s : s),  s the symmetric part of the deviator. Unit of the tensor.
 double deviator_size(const Tensor3& a);
 

@@ -12,6 +12,7 @@ inline constexpr const char* k_log = "run.log";
 inline constexpr const char* k_status = "status.json";
 inline constexpr const char* k_shear = "shear.csv";
 inline constexpr const char* k_grain = "grain.csv";
+inline constexpr const char* k_walls = "walls.csv";
 inline constexpr const char* k_micro = "micro.csv";
 inline constexpr const char* k_summary = "summary.json";
 inline constexpr const char* k_results = "results.h5";

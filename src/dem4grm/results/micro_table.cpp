@@ -18,7 +18,7 @@ constexpr double k_degrees = 180.0 / std::numbers::pi;
 using S = SetNumbers;
 using M = MicroNumbers;
 
-constexpr std::array<SetQuantity, 21> k_set_quantities{{
+constexpr std::array<SetQuantity, 27> k_set_quantities{{
     {"contacts", "1", "contacts that carry force", &S::contacts},
     {"normal_force", "N", "mean normal force of the contacts", &S::normal_force},
     {"normal_force_orientations", "N", "mean of the mean normal forces of the bins", &S::normal_force_orientations},
@@ -35,6 +35,14 @@ constexpr std::array<SetQuantity, 21> k_set_quantities{{
     {"a_t", "1", "amplitude of the tangential force", &S::shear_amplitude},
     {"theta_t", "deg", "direction of the largest tangential force, modulo 90", &S::shear_direction, k_degrees},
     {"a_t_residual", "1", "root mean square of the tangential force off its curve, over the mean", &S::shear_residual},
+    {"a_t2", "1", "amplitude of the second harmonic of the tangential force", &S::shear_second_amplitude},
+    {"theta_t2", "deg", "direction of it", &S::shear_second_direction, k_degrees},
+    {"a_s", "1", "amplitude of the signed tangential force over the mean normal force", &S::signed_shear_amplitude},
+    {"theta_s", "deg", "major axis of the stress that it belongs to", &S::signed_shear_direction, k_degrees},
+    {"a_s_fourth", "1", "fourth harmonic of the signed tangential force over the mean normal force",
+     &S::signed_shear_fourth},
+    {"a_s_residual", "1", "root mean square of it off its curve, over the mean normal force",
+     &S::signed_shear_residual},
     {"empty_bins", "1", "bins of the half circle without a contact", &S::empty_bins},
     {"sliding", "1", "share of the contacts at their Coulomb limit", &S::sliding},
     {"bulk_friction", "1", "sum of tangential over sum of normal forces", &S::bulk_friction},
@@ -42,7 +50,7 @@ constexpr std::array<SetQuantity, 21> k_set_quantities{{
     {"strong_load_share", "1", "share among the strong contacts by load", &S::strong_load_share},
 }};
 
-constexpr std::array<StateQuantity, 41> k_state_quantities{{
+constexpr std::array<StateQuantity, 47> k_state_quantities{{
     {"strong_threshold", "N", "a contact is strong above this force", &M::strong_threshold},
     {"strong_fraction", "1", "strong contacts among all", &M::strong_fraction},
     {"strong_load", "1", "share of the load that strong contacts carry", &M::strong_load},
@@ -77,6 +85,15 @@ constexpr std::array<StateQuantity, 41> k_state_quantities{{
     {"bond_strain_p05", "1", "5 % of the bonds lie below", &M::bond_strain_p05},
     {"bond_strain_p50", "1", "median", &M::bond_strain_p50},
     {"bond_strain_p95", "1", "5 % of the bonds lie above", &M::bond_strain_p95},
+    {"bond_strain_compressed", "1", "mean strain of the bonds that are shorter than at rest",
+     &M::bond_strain_compressed},
+    {"bonds_compressed", "1", "their share", &M::bonds_compressed},
+    {"bond_strain_at_gravel", "1", "mean bond strain of rubber grains, each once for each gravel grain that it touches",
+     &M::bond_strain_at_gravel},
+    {"bond_strain_at_rubber", "1", "the same for rubber grains that it touches", &M::bond_strain_at_rubber},
+    {"grain_strain_major", "1", "mean compression of a rubber grain along the major axis of the stress",
+     &M::grain_strain_major},
+    {"grain_strain_vertical", "1", "the same along the vertical", &M::grain_strain_vertical},
     {"bond_force", "N", "mean normal force of the bonds, compression positive", &M::bond_force},
     {"bond_force_size", "N", "mean magnitude of it", &M::bond_force_size},
     {"bond_moment", "mN_m", "mean magnitude of the moment of the bonds", &M::bond_moment, 1e3},

@@ -34,13 +34,15 @@ struct BandQuantity {
   Band AnisotropyBands::*band;
   double scale = 1.0;
 };
-constexpr std::array<BandQuantity, 6> k_bands{{
+constexpr std::array<BandQuantity, 8> k_bands{{
     {"a", &AnisotropyBands::fabric_amplitude},
     {"theta_a", &AnisotropyBands::fabric_direction, k_in_degrees},
     {"a_n", &AnisotropyBands::normal_amplitude},
     {"theta_n", &AnisotropyBands::normal_direction, k_in_degrees},
     {"a_t", &AnisotropyBands::shear_amplitude},
     {"theta_t", &AnisotropyBands::shear_direction, k_in_degrees},
+    {"a_s", &AnisotropyBands::signed_shear_amplitude},
+    {"theta_s", &AnisotropyBands::signed_shear_direction, k_in_degrees},
 }};
 
 std::string unit_text(const char* unit) {
@@ -75,11 +77,18 @@ JsonObject options_as_json(const MicroOptions& o) {
           {"seed", static_cast<std::int64_t>(o.seed)}};
 }
 
+/// Value of the curve that the second harmonic gives, N.
+double signed_shear_at(const PolarHistogram& h, const SignedShearAnisotropy& fit, double angle) {
+  return -normal_force_anisotropy(h).fit.mean * fit.amplitude * std::sin(2.0 * (angle - fit.direction));
+}
+
 void append_histogram(std::string& text, const PolarHistogram& h, const char* set) {
   const std::vector<double> density = orientation_density(h);
   const std::vector<double> normal = bin_means(h, h.normal_sum), shear = bin_means(h, h.shear_sum);
   const HarmonicFit fabric_fit = fabric_anisotropy(h);
   const HarmonicFit normal_fit = normal_force_anisotropy(h).fit, shear_fit = shear_force_anisotropy(h).fit;
+  const std::vector<double> signed_shear = bin_means(h, h.signed_shear_sum);
+  const SignedShearAnisotropy signed_fit = signed_shear_anisotropy(h, ForceMean::orientations);
   const std::size_t half = h.counts.size();
   for (std::size_t k = 0; k < 2 * half; ++k) {
     const std::size_t b = k % half;  // n and -n
@@ -98,6 +107,8 @@ void append_histogram(std::string& text, const PolarHistogram& h, const char* se
     add(value_at(normal_fit, 2, angle), true);
     add(shear[b], has_force);
     add(value_at(shear_fit, 4, angle), true);
+    add(signed_shear[b], has_force);
+    add(signed_shear_at(h, signed_fit, angle), true);
     text += '\n';
   }
 }
@@ -170,7 +181,7 @@ JsonObject micro_as_json(const StoredMicroState& stored, const MicroAnalysis& an
 std::string histogram_csv(const MicroAnalysis& analysis) {
   std::string text =
       "set,angle_deg,contacts,density_per_rad,density_fit_per_rad,normal_force_N,normal_force_fit_N,shear_force_N,"
-      "shear_force_fit_N\n";
+      "shear_force_fit_N,signed_shear_force_N,signed_shear_force_fit_N\n";
   for (std::size_t set = 0; set < k_contact_sets; ++set) {
     append_histogram(text, analysis.histograms[set], k_set_names[set]);
   }

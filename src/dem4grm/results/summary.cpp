@@ -90,7 +90,8 @@ JsonObject beginning_of(const DirectShearCase& test, const DirectShearResult& re
                    {"time_step_limited_by", result.specimen.time_step.limited_by},
                    {"wall_time_s", facts.wall_time}});
   append(summary, specimen_of(test, result));
-  append(summary, homogeneity_fields(result.homogeneity));
+  append(summary, homogeneity_fields(result.before.homogeneity));
+  append(summary, {{"k0_x", result.before.lateral.k0_x}, {"k0_y", result.before.lateral.k0_y}});
   return summary;
 }
 
@@ -115,6 +116,22 @@ JsonObject curve_of(const DirectShearCase& test, const DirectShearResult& r) {
           {"vertical_displacement_at_end_mm", c.vertical_displacement_at_end * 1e3},
           {"void_ratio_at_end", r.rows.empty() ? JsonValue() : JsonValue(r.rows.back().void_ratio)},
           {"rows", static_cast<std::int64_t>(r.rows.size())}};
+}
+
+JsonObject stage_fields(const Stage& stage) {
+  return {{"displacement_mm", stage.displacement * 1e3},
+          {"shear_ratio", stage.dilatancy.shear_ratio},
+          {"dilation_rate", stage.dilatancy.rate},
+          {"taylor_friction", stage.dilatancy.friction}};
+}
+
+/// How the specimen changes its volume, and what that carries of the shear stress.
+JsonObject volume_of(const ShearCurve& c) {
+  return {{"largest_contraction_mm", c.contraction * 1e3},
+          {"displacement_at_contraction_mm", c.displacement_at_contraction * 1e3},
+          {"dilatancy_at_peak", stage_fields(c.at_peak)},
+          {"dilatancy_fastest", stage_fields(c.fastest_dilation)},
+          {"dilatancy_residual", stage_fields(c.residual)}};
 }
 
 /// The recorded micro-mechanics nearest to the peak; null without any.
@@ -186,7 +203,9 @@ JsonObject specimen_summary(const DirectShearCase& test, const DirectShearResult
 JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearResult& result, const RunFacts& facts) {
   JsonObject summary = beginning_of(test, result, facts);
   append(summary, curve_of(test, result));
-  append(summary, {{"hardening", result.curve.is_hardening}, {"micro_at_peak", micro_at_peak(result)}});
+  append(summary, {{"hardening", result.curve.is_hardening}});
+  append(summary, volume_of(result.curve));
+  append(summary, {{"micro_at_peak", micro_at_peak(result)}});
   append(summary, ending_of(facts, result.state_hash));
   return summary;
 }

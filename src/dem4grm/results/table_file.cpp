@@ -10,7 +10,7 @@
 namespace dem {
 namespace {
 
-constexpr std::array<ColumnInfo, 19> k_shear_columns{{
+constexpr std::array<ColumnInfo, 23> k_shear_columns{{
     {"displacement_mm", "mm", "displacement of the halves against each other at the end of the interval"},
     {"shear_stress_kPa", "kPa", "net x-force on the walls of the lower half over the nominal area"},
     {"shear_stress_corrected_kPa", "kPa", "the same over the area that is left"},
@@ -23,6 +23,10 @@ constexpr std::array<ColumnInfo, 19> k_shear_columns{{
     {"plate_shear_stress_kPa", "kPa", "share of the shear stress that the bottom plate carries"},
     {"normal_stress_worst_kPa", "kPa", "the single step farthest from the target"},
     {"time_step_us", "us", "time step at the end of the interval"},
+    {"normal_stress_corrected_kPa", "kPa", "force on the top plate over the area that is left"},
+    {"shear_ratio", "1", "shear over normal stress, both over the last 0.5 mm"},
+    {"dilation_rate", "1", "rise of the plate over displacement, slope of the last 0.5 mm"},
+    {"taylor_friction", "1", "shear_ratio without dilation_rate: what friction alone carries"},
     {"kinetic_J", "J", "kinetic energy"},
     {"contact_strain_J", "J", "elastic energy of the contacts"},
     {"bond_strain_J", "J", "elastic energy of the bonds"},
@@ -46,6 +50,28 @@ constexpr std::array<ColumnInfo, 12> k_compression_columns{{
     {"dashpot_J", "J", "work lost in dashpots"},
     {"local_damping_J", "J", "work lost in local damping"},
 }};
+
+/// Words for the walls in the order of ShearBox.
+constexpr std::array<const char*, ShearBox::k_walls> k_wall_words{
+    "bottom_plate", "lower_xmin", "lower_xmax", "lower_ymin", "lower_ymax", "lower_wing",
+    "top_plate",    "upper_xmin", "upper_xmax", "upper_ymin", "upper_ymax", "upper_wing"};
+
+/// What the views of ColumnInfo look at.
+struct WallColumns {
+  std::vector<std::string> names;
+  std::vector<ColumnInfo> columns;
+
+  WallColumns() {
+    names.reserve(3 * k_wall_words.size());  // so that no view is left behind when the list grows
+    columns.push_back(k_shear_columns.front());
+    for (const char* wall : k_wall_words) {
+      for (const char* axis : {"x", "y", "z"}) {
+        names.push_back(std::string(wall) + "_f" + axis + "_N");
+        columns.push_back({names.back(), "N", "mean force of the grains on that wall over the interval"});
+      }
+    }
+  }
+};
 
 void append_energies(std::vector<double>& values, const EnergyReport& e) {
   for (const double v :
@@ -91,8 +117,23 @@ std::vector<double> shear_values(const ShearRow& row, double half_force_imbalanc
                              half_force_imbalance,
                              row.plate_shear_stress / 1e3,
                              row.normal_stress_worst / 1e3,
-                             row.time_step * 1e6};
+                             row.time_step * 1e6,
+                             row.normal_stress_corrected / 1e3,
+                             row.dilatancy.shear_ratio,
+                             row.dilatancy.rate,
+                             row.dilatancy.friction};
   append_energies(values, row.energy);
+  return values;
+}
+
+std::span<const ColumnInfo> wall_columns() {
+  static const WallColumns k_columns;
+  return k_columns.columns;
+}
+
+std::vector<double> wall_values(const ShearRow& row) {
+  std::vector<double> values{row.displacement * 1e3};
+  for (const Vec3& force : row.wall_force) values.insert(values.end(), {force.x, force.y, force.z});
   return values;
 }
 

@@ -43,6 +43,10 @@ std::span<const ColumnInfo> shear_columns();
 /// Values of a row in the order of the columns; the imbalance is a fraction.
 std::vector<double> shear_values(const ShearRow& row, double half_force_imbalance);
 
+/// Columns of walls.csv: the displacement, then x, y and z of the force on each wall.
+std::span<const ColumnInfo> wall_columns();
+std::vector<double> wall_values(const ShearRow& row);
+
 /// Columns of grain.csv.
 std::span<const ColumnInfo> compression_columns();
 std::vector<double> compression_values(const CompressionRow& row);

@@ -52,6 +52,7 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
     table_.emplace(folder.file(file_name::k_shear), shear_columns());
     store_.emplace(links.store.empty() ? folder.file(file_name::k_preparation) : links.store,
                    std::get<DirectShearCase>(loaded.test));
+    wall_table_.emplace(folder.file(file_name::k_walls), wall_columns());
     micro_table_.emplace(folder.file(file_name::k_micro), micro_columns());
   } else {
     table_.emplace(folder.file(file_name::k_grain), compression_columns());
@@ -150,6 +151,7 @@ void TestWriter::take_row(const ShearRow& row) {
   const double imbalance = peak_stress_ > 0.0 ? std::fabs(row.half_force_difference) / peak_stress_ : 0.0;
   last_energy_ = row.energy;
   table_->append(shear_values(row, imbalance));
+  wall_table_->append(wall_values(row));
 }
 
 void TestWriter::shear_row(const ShearRow& row) {
@@ -194,11 +196,13 @@ void TestWriter::write_tables() {
   // Without the file the run ended before it had anything of its own to add.
   if (!results_) return;
   results_->add_table(is_direct_shear_ ? "shear" : "compression", *table_);
+  if (wall_table_) results_->add_table("walls", *wall_table_);
   if (micro_table_) results_->add_table("micro", *micro_table_);
 }
 
 void TestWriter::sync_tables() {
   table_->sync();
+  if (wall_table_) wall_table_->sync();
   if (micro_table_) micro_table_->sync();
 }
 

@@ -87,7 +87,8 @@ class TestWriter : public LabObserver {
   RemainingTime remaining_;
   std::optional<ResultsFile> results_;
   std::optional<TableFile> table_;        ///< shear.csv or grain.csv
-  std::optional<TableFile> micro_table_;  ///< micro.csv, of a direct shear test
+  std::optional<TableFile> wall_table_;   ///< walls.csv, of a direct shear test
+  std::optional<TableFile> micro_table_;  ///< micro.csv, likewise
   std::optional<PreparationStore> store_;
   bool is_direct_shear_;
   bool has_shear_begun_ = false;

@@ -30,6 +30,8 @@ class ShearBox {
   static constexpr int k_bottom_plate = 0;
   static constexpr int k_top_plate = 6;
   static constexpr int k_walls = 12;
+  /// Of the lower half; those of the upper half stand k_top_plate later.
+  static constexpr int k_side_x_min = 1, k_side_x_max = 2, k_side_y_min = 3, k_side_y_max = 4;
 
   /// plate_height: z of the top plate, m.
   ShearBox(const BoxSettings& settings, double plate_height);

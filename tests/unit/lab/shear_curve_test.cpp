@@ -65,11 +65,62 @@ TEST(ShearCurve, SteepestMillimetreDecidesTheDilationAngle) {
   EXPECT_NEAR(c.dilation_angle, std::atan(0.5), 1e-9);
 }
 
+/// Shear stress 60 kPa plus what the rise of the plate takes, under 100 kPa: friction alone is always 0.6.
+std::vector<ShearRow> dilating_record() {
+  // Sinks by 0.1 mm over the first millimetre, rises with a slope of 0.4 from 1 to 3 mm, then with 0.1.
+  const auto slope = [](double u) { return u < 1e-3 ? -0.1 : (u < 3e-3 ? 0.4 : 0.1); };
+  const auto rise = [](double u) {
+    return u < 1e-3 ? -0.1 * u : (u < 3e-3 ? -0.1e-3 + 0.4 * (u - 1e-3) : 0.7e-3 + 0.1 * (u - 3e-3));
+  };
+  std::vector<ShearRow> rows = record(
+      8e-3, [&](double u) { return 100e3 * (0.6 + slope(u - 0.5e-5)); }, rise);
+  for (ShearRow& row : rows) row.normal_stress = 100e3;
+  return rows;
+}
+
+TEST(Dilatancy, TaylorsFrictionIsWhatTheRiseOfTheLoadLeaves) {
+  const std::vector<ShearRow> rows = dilating_record();
+  for (const std::size_t n : {90U, 250U, 800U}) {  // within the first, the second and the third part
+    const Dilatancy d = last_dilatancy(std::span(rows).first(n));
+    EXPECT_NEAR(d.rate, n == 90U ? -0.1 : (n == 250U ? 0.4 : 0.1), 1e-9);
+    EXPECT_NEAR(d.shear_ratio, 0.6 + d.rate, 1e-9);
+    EXPECT_NEAR(d.friction, 0.6, 1e-9);
+  }
+  // Only the last 0.5 mm count: 0.25 mm behind the bend the mean slope lies between the two.
+  const Dilatancy at_bend = last_dilatancy(std::span(rows).first(325));
+  EXPECT_GT(at_bend.rate, 0.15);
+  EXPECT_LT(at_bend.rate, 0.35);
+  EXPECT_TRUE(std::isnan(last_dilatancy(std::span(rows).first(1)).rate));
+  EXPECT_TRUE(std::isnan(last_dilatancy({}).friction));
+}
+
+TEST(Dilatancy, CurveNamesContractionPeakAndEnd) {
+  const ShearCurve c = read_shear_curve(dilating_record());
+  EXPECT_NEAR(c.contraction, 0.1e-3, 1e-9);
+  EXPECT_NEAR(c.displacement_at_contraction, 1e-3, 1e-8);
+  EXPECT_NEAR(c.fastest_dilation.dilatancy.rate, 0.4, 1e-9);
+  EXPECT_GT(c.fastest_dilation.displacement, 1.249e-3);  // windows between the bends, all alike
+  EXPECT_LT(c.fastest_dilation.displacement, 2.751e-3);
+  EXPECT_NEAR(c.at_peak.dilatancy.shear_ratio, c.peak_stress / 100e3, 0.26);
+  EXPECT_NEAR(c.at_peak.displacement, c.displacement_at_peak, 0.26e-3);
+  EXPECT_NEAR(c.residual.dilatancy.shear_ratio, 0.7, 1e-9);
+  EXPECT_NEAR(c.residual.dilatancy.friction, 0.6, 1e-9);
+  EXPECT_NEAR(c.residual.displacement, 7e-3, 1e-8);
+}
+
+TEST(Dilatancy, ARecordThatOnlyRisesHasNoContraction) {
+  const ShearCurve c = read_shear_curve(record(
+      2e-3, [](double) { return 1e3; }, [](double u) { return 0.2 * u; }));
+  EXPECT_EQ(c.contraction, 0.0);
+  EXPECT_EQ(c.displacement_at_contraction, 0.0);
+}
+
 TEST(ShearCurve, TooShortARecordGivesZeros) {
   const ShearCurve c = read_shear_curve(record(
       5e-5, [](double) { return 1e3; }, [](double) { return 0.0; }));
   EXPECT_EQ(c.peak_stress, 0.0);
   EXPECT_EQ(read_shear_curve({}).peak_stress, 0.0);
+  EXPECT_TRUE(std::isnan(c.at_peak.dilatancy.rate)) << "what was not measured is no zero";
 }
 
 }  // namespace

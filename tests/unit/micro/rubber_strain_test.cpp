@@ -87,12 +87,67 @@ TEST(RubberReport, AveragesOverBondsAndGrains) {
   EXPECT_NEAR(r.bond_strain.deviation, 0.1 * std::sqrt(63.0 * 64.0) / 127, 1e-12);
   EXPECT_NEAR(r.bond_strain.p05, 0.0, 1e-12);
   EXPECT_NEAR(r.bond_strain.p95, 0.1, 1e-12);
+  // 63 whole bonds of the first grain are shorter by a tenth, the 64 of the other as at rest or longer.
+  EXPECT_NEAR(r.bond_strain_compressed, 0.1, 1e-12);
+  EXPECT_NEAR(r.bonds_compressed, 63.0 / 127, 1e-12);
+  ASSERT_EQ(r.grain_bond_strain.size(), 2U);
+  EXPECT_NEAR(r.grain_bond_strain[0], 0.1, 1e-12);
+  EXPECT_NEAR(r.grain_bond_strain[1], 0.0, 1e-12);
   EXPECT_NEAR(r.bond_force, (63 * 3.0 - 64.0) / 127, 1e-12);
   EXPECT_NEAR(r.bond_force_size, (63 * 3.0 + 64.0) / 127, 1e-12);
   EXPECT_NEAR(r.bond_moment, 2e-6, 1e-18);
   EXPECT_NEAR(r.volume_strain.mean, 0.5 * (1 - 0.729), 1e-12);
   EXPECT_NEAR(r.aspect_ratio.mean, 1.0, 1e-10);
   EXPECT_TRUE(std::isnan(rubber_report({}).bond_strain.mean));
+}
+
+TEST(GrainDeformation, IsFoundWhateverTheGrainsTurnAndPlace) {
+  // Squeezed by 20 % along an axis of its own, swollen by 5 % across, sheared, turned by 40 degrees about y and moved.
+  const double turn = 40 * test::k_pi / 180, c = std::cos(turn), s = std::sin(turn);
+  const auto map = [&](const Vec3& x) {
+    const Vec3 y{1.05 * x.x + 0.1 * x.z, 1.05 * x.y, 0.8 * x.z};
+    return Vec3{c * y.x + s * y.z, y.y, c * y.z - s * y.x} + Vec3{0.3, -0.2, 0.1};
+  };
+  const Tensor3 f = deformation_of(grain_after(map), 2 * k_radius);
+  const double expected[] = {1.05 * c, 0, 0.1 * c + 0.8 * s, 0, 1.05, 0, -1.05 * s, 0, 0.8 * c - 0.1 * s};
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(f.value[k], expected[k], 1e-12) << k;
+  EXPECT_NEAR(strain_along(f, {0, 1, 0}), -0.05, 1e-12);
+  // The line that was along x lies along (cos, 0, -sin) now, and is 5 % longer.
+  EXPECT_NEAR(strain_along(f, {c, 0, -s}), -0.05, 1e-12);
+  // The line that was along z: 0.1 and 0.8 of it turned, so it is sqrt(0.65) long.
+  const double x = 0.1 * c + 0.8 * s, z = 0.8 * c - 0.1 * s, length = std::hypot(x, z);
+  EXPECT_NEAR(length, std::sqrt(0.65), 1e-12);
+  EXPECT_NEAR(strain_along(f, {x / length, 0, z / length}), 1 - std::sqrt(0.65), 1e-12);
+}
+
+TEST(GrainDeformation, MeanOverGrainsAlongADirection) {
+  RubberState state;
+  for (const double squeeze : {0.9, 0.7}) {
+    const std::vector<Vec3> grain = grain_after([&](const Vec3& x) { return Vec3{x.x, x.y, squeeze * x.z}; });
+    state.ball_position.insert(state.ball_position.end(), grain.begin(), grain.end());
+    state.rest_length.push_back(2 * k_radius);
+  }
+  EXPECT_NEAR(mean_strain_along(state, {0, 0, 1}), 0.2, 1e-12);
+  EXPECT_NEAR(mean_strain_along(state, {1, 0, 0}), 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(mean_strain_along({}, {0, 0, 1})));
+}
+
+TEST(NeighbourStrains, EveryTouchingPairCountsOnce) {
+  // Rubber grains 0, 1, 2 and gravel 3, 4. Grain 0 touches 3 twice, 4 and 1; grain 1 touches 0 and 3; grain 2 nothing.
+  ContactNetwork network;
+  network.body_material = {k_rubber, k_rubber, k_rubber, k_gravel, k_gravel};
+  const auto join = [&](int i, int j) {
+    Contact c;
+    c.body_i = i;
+    c.body_j = j;
+    network.contacts.push_back(c);
+  };
+  join(0, 3), join(3, 0), join(4, 0), join(0, 1), join(1, 3), join(3, 4);
+  const double strain[] = {0.3, 0.1, 0.9};
+  const NeighbourStrain found = strain_by_neighbour(strain, network);
+  EXPECT_NEAR(found.at_gravel, (0.3 + 0.3 + 0.1) / 3, 1e-15);  // 0-3, 0-4, 1-3
+  EXPECT_NEAR(found.at_rubber, (0.3 + 0.1) / 2, 1e-15);        // 0-1 from both sides
+  EXPECT_TRUE(std::isnan(strain_by_neighbour({}, network).at_gravel));
 }
 
 TEST(RubberReport, ReadsASimulation) {

@@ -120,7 +120,7 @@ TEST_F(MicroStateFile, TextsHoldTheNumbers) {
   double density = 0.0;
   int rows = 0;
   while (std::getline(csv, line)) {
-    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 8) << line;
+    EXPECT_EQ(std::count(line.begin(), line.end(), ','), 10) << line;
     ++rows;
     if (!line.starts_with("all,")) continue;
     std::istringstream fields(line);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include "dem4grm/results/json_text.hpp"
@@ -34,7 +35,11 @@ ShearRow sample_row() {
   row.plate_shear_stress = 1e3 / 3.0;
   row.normal_stress_worst = 99e3;
   row.time_step = 4.25e-6;
+  row.normal_stress_corrected = 101e3;
+  row.dilatancy = {0.75, 0.25, 0.5};
   row.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+  row.wall_force[ShearBox::k_top_plate] = {1.5, -2.5, 1000.0};
+  row.wall_force[ShearBox::k_top_plate + ShearBox::k_side_y_max] = {0.0, 42.0, 0.0};
   return row;
 }
 
@@ -51,7 +56,7 @@ TEST(Table, HeaderOfShearBeginsAsPromised) {
 }
 
 TEST(Table, EveryColumnHasUnitInNameAndDescription) {
-  for (const auto columns : {shear_columns(), compression_columns(), micro_columns()}) {
+  for (const auto columns : {shear_columns(), wall_columns(), compression_columns(), micro_columns()}) {
     for (const ColumnInfo& column : columns) {
       EXPECT_FALSE(column.description.empty()) << column.name;
       if (column.unit != "1") {
@@ -60,6 +65,7 @@ TEST(Table, EveryColumnHasUnitInNameAndDescription) {
     }
   }
   EXPECT_EQ(shear_columns().size(), shear_values({}, 0.0).size());
+  EXPECT_EQ(wall_columns().size(), wall_values({}).size());
   EXPECT_EQ(compression_columns().size(), compression_values({}).size());
   EXPECT_EQ(micro_columns().size(), micro_values({}).size());
 }
@@ -97,9 +103,22 @@ TEST(Table, RowsAreInTheFileAtOnceInShortestNumbers) {
   const std::string row = text.substr(text.find('\n') + 1);
   EXPECT_EQ(row,
             "0.01,61.2345,62,100,-0.002,0.65,3e-05,0.30000000000000004,0.25,0.3333333333333333,99,4.25,"
-            "1,2,3,4,5,6,7\n");
+            "101,0.75,0.25,0.5,1,2,3,4,5,6,7\n");
   EXPECT_EQ(table.rows(), 1U);
   EXPECT_EQ(table.values_of(1).front(), 61.2345);
+}
+
+TEST(Table, ForcesStandUnderTheNameOfTheirWall) {
+  const std::vector<double> values = wall_values(sample_row());
+  std::map<std::string_view, double> by_name;
+  for (std::size_t c = 0; c < values.size(); ++c) by_name[wall_columns()[c].name] = values[c];
+  EXPECT_EQ(by_name.size(), 1U + 3U * ShearBox::k_walls);
+  EXPECT_EQ(by_name.at("displacement_mm"), 0.01);
+  EXPECT_EQ(by_name.at("top_plate_fx_N"), 1.5);
+  EXPECT_EQ(by_name.at("top_plate_fy_N"), -2.5);
+  EXPECT_EQ(by_name.at("top_plate_fz_N"), 1000.0);
+  EXPECT_EQ(by_name.at("upper_ymax_fy_N"), 42.0);
+  EXPECT_EQ(by_name.at("upper_ymin_fy_N"), 0.0);
 }
 
 TEST(Table, NumbersReadBackAsTheSameBits) {
