@@ -81,6 +81,7 @@ int run_program(int argc, char** argv) {
   dem::add_run(app);
   dem::add_info(app);
   dem::add_sieve(app);
+  dem::add_profile(app);
   dem::add_micro(app);
   dem::add_verify(app);
   dem::add_campaign(app);

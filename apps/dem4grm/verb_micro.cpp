@@ -14,7 +14,7 @@
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/results/micro_text.hpp"
 #include "dem4grm/results/output_file.hpp"
-#include "dem4grm/runs/output_folder.hpp"
+#include "dem4grm/results/results_file.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -29,17 +29,6 @@ struct MicroVerbOptions {
   std::uint64_t seed = 1;
   bool is_json = false;
 };
-
-/// results.h5 of a folder, or the file itself.
-std::filesystem::path results_of(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_directory(path, error)) return path;
-  std::filesystem::path results = path / file_name::k_results;
-  if (!std::filesystem::exists(results, error)) {
-    throw MissingFileError(fmt::format("{}: has no {}, so no state to look at", path.string(), file_name::k_results));
-  }
-  return results;
-}
 
 std::optional<double> displacement_of(const std::string& text) {
   if (text.empty()) return std::nullopt;
@@ -69,7 +58,7 @@ MicroOptions analysis_options(const MicroVerbOptions& given) {
 void show_micro(const MicroVerbOptions& given) {
   const MicroOptions options = analysis_options(given);
   const std::optional<double> at = displacement_of(given.at);
-  const std::filesystem::path results = results_of(given.path);
+  const std::filesystem::path results = results_in(given.path);
   const StoredMicroState stored = read_micro_state(results, at);
   const MicroAnalysis analysis = analyse(stored.state, options);
   if (!given.histogram.empty()) replace_file(given.histogram, histogram_csv(analysis));

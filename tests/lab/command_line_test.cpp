@@ -30,7 +30,7 @@ TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
 
 TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
   for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
-           {}, {"new"}, {"check"}, {"specimen"}, {"run"}, {"info"}, {"sieve"}, {"micro"}, {"verify"}}) {
+           {}, {"new"}, {"check"}, {"specimen"}, {"run"}, {"info"}, {"sieve"}, {"micro"}, {"profile"}, {"verify"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProgramResult result = run(arguments);
@@ -128,13 +128,14 @@ TEST_F(CommandLine, SameBytesForAnyNumberOfThreads) {
   const ProgramResult two = run({"run", "tiny.toml", "-o", "two", "-j", "2"});
   ASSERT_EQ(one.exit_code, 0) << one.err;
   ASSERT_EQ(two.exit_code, 0) << two.err;
-  for (const char* file : {"shear.csv", "micro.csv", "results.h5", "specimen.h5", "case.toml", "resolved.toml"}) {
+  for (const char* file : {"shear.csv", "micro.csv", "walls.csv", "profiles.csv", "results.h5", "specimen.h5",
+                           "case.toml", "resolved.toml"}) {
     const std::string bytes = read_all(folder_ / "one" / file);
     EXPECT_FALSE(bytes.empty()) << file;
     EXPECT_TRUE(bytes == read_all(folder_ / "two" / file)) << file;
   }
   double size = 0.0;
-  for (const char* file : {"shear.csv", "micro.csv", "results.h5", "specimen.h5"}) {
+  for (const char* file : {"shear.csv", "micro.csv", "walls.csv", "profiles.csv", "results.h5", "specimen.h5"}) {
     size += static_cast<double>(std::filesystem::file_size(folder_ / "one" / file));
   }
   const JsonObject forecast = parse_json(run({"check", "tiny.toml", "--json"}).out, "check");

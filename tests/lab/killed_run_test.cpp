@@ -73,7 +73,7 @@ class KilledRun : public test::CommandLine {
   void expect_same_results(const std::string& folder, const std::string& straight) const {
     EXPECT_EQ(text_in(json(folder + "/summary.json"), "state_hash"),
               text_in(json(straight + "/summary.json"), "state_hash"));
-    for (const char* file : {"shear.csv", "micro.csv", "specimen.h5"}) {
+    for (const char* file : {"shear.csv", "micro.csv", "walls.csv", "profiles.csv", "specimen.h5"}) {
       EXPECT_TRUE(read_all(folder_ / folder / file) == read_all(folder_ / straight / file)) << file;
     }
     const Content got = content_of(folder_ / folder / "results.h5");
@@ -116,7 +116,7 @@ TEST_F(KilledRun, IntervalDecidesHowOftenACheckpointIsWritten) {
   EXPECT_GT(checkpoints("sometimes"), 3) << "in " << seconds << " s";
   EXPECT_LE(checkpoints("sometimes"), 3 + static_cast<int>(seconds / interval)) << "in " << seconds << " s";
 
-  for (const char* file : {"shear.csv", "micro.csv", "results.h5", "specimen.h5"}) {
+  for (const char* file : {"shear.csv", "micro.csv", "walls.csv", "profiles.csv", "results.h5", "specimen.h5"}) {
     EXPECT_TRUE(read_all(folder_ / "always" / file) == read_all(folder_ / "never" / file)) << file;
     EXPECT_TRUE(read_all(folder_ / "sometimes" / file) == read_all(folder_ / "never" / file)) << file;
   }

@@ -123,7 +123,7 @@ TEST_F(CommandLine, StoppedFiveTimesEndsWithTheSameFiles) {
     ++stops;
   }
   EXPECT_GT(stops, 1);
-  for (const char* name : {"shear.csv", "micro.csv", "results.h5", "specimen.h5"}) {
+  for (const char* name : {"shear.csv", "micro.csv", "walls.csv", "profiles.csv", "results.h5", "specimen.h5"}) {
     EXPECT_TRUE(read_all(folder_ / "stopped" / name) == read_all(folder_ / "straight" / name)) << name;
   }
   EXPECT_EQ(text_in(json("stopped/summary.json"), "state_hash"), text_in(json("straight/summary.json"), "state_hash"));

@@ -14,6 +14,7 @@ inline constexpr const char* k_shear = "shear.csv";
 inline constexpr const char* k_grain = "grain.csv";
 inline constexpr const char* k_walls = "walls.csv";
 inline constexpr const char* k_micro = "micro.csv";
+inline constexpr const char* k_profiles = "profiles.csv";
 inline constexpr const char* k_summary = "summary.json";
 inline constexpr const char* k_results = "results.h5";
 inline constexpr const char* k_specimen = "specimen.h5";

@@ -144,7 +144,7 @@ RubberState read_rubber(const Handle& frame, std::size_t n_grains) {
   return out;
 }
 
-MicroState read_micro_state(const Handle& frame) {
+MicroState micro_state_in(const Handle& frame) {
   const std::vector<std::string> columns = hdf5::names_in(hdf5::open_group(frame, "contacts"));
   if (std::find(columns.begin(), columns.end(), "is_sliding") == columns.end()) {
     throw IoError("its contacts have no friction: written before states held it, run the case again");
@@ -188,7 +188,7 @@ StoredMicroState read_micro_state(const std::filesystem::path& results, std::opt
   try {
     const Handle file = hdf5::open_file(results, hdf5::Access::read);
     const Handle group = hdf5::open_group(hdf5::open_group(file, "frames"), frame.name);
-    return {frame.name, frame.displacement, frame.state_hash, read_micro_state(group)};
+    return {frame.name, frame.displacement, frame.state_hash, micro_state_in(group)};
   } catch (const IoError& e) {
     throw damaged(e.what());
   } catch (const std::out_of_range&) {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string>
 
@@ -134,18 +133,16 @@ struct Columns {
   }
 };
 
-double plain(double value) { return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value; }
-
 }  // namespace
 
 std::span<const SetQuantity> set_quantities() { return k_set_quantities; }
 std::span<const StateQuantity> state_quantities() { return k_state_quantities; }
 
 double value_in_unit(const SetQuantity& quantity, const SetNumbers& numbers) {
-  return plain(numbers.*quantity.value * quantity.scale);
+  return without_sign_of_nan(numbers.*quantity.value * quantity.scale);
 }
 double value_in_unit(const StateQuantity& quantity, const MicroNumbers& numbers) {
-  return plain(numbers.*quantity.value * quantity.scale);
+  return without_sign_of_nan(numbers.*quantity.value * quantity.scale);
 }
 
 std::string name_with_unit(const char* name, const char* unit, const char* set) {

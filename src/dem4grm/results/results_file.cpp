@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/frame_writer.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
 #include "dem4grm/results/output_file.hpp"
@@ -110,6 +111,16 @@ void ResultsFile::add_table(const std::string& group, const TableFile& table) {
                           table.values_of(c));
     }
   });
+}
+
+std::filesystem::path results_in(const std::filesystem::path& path) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(path, error)) return path;
+  std::filesystem::path results = path / file_name::k_results;
+  if (!std::filesystem::exists(results, error)) {
+    throw MissingFileError(fmt::format("{}: has no {}, so no state to look at", path.string(), file_name::k_results));
+  }
+  return results;
 }
 
 StoredResults read_outline(const std::filesystem::path& path) {

@@ -57,6 +57,9 @@ struct StoredResults {
   std::size_t table_rows = 0;  ///< of /shear or /compression
 };
 
+/// results.h5 of a folder, or the file itself. Throws MissingFileError for a folder without it.
+std::filesystem::path results_in(const std::filesystem::path& path);
+
 /// Opens a file and reads its outline. Throws MissingFileError, or IoError when it is damaged or of another kind.
 StoredResults read_outline(const std::filesystem::path& path);
 

@@ -34,24 +34,6 @@ std::vector<Vec3> rows_of_three(const hdf5::Handle& group, const std::string& na
   return rows;
 }
 
-Packing read_packing(const hdf5::Handle& frame) {
-  const hdf5::Handle balls = hdf5::open_group(frame, "balls");
-  Packing packing;
-  packing.position = rows_of_three(balls, "position");
-  packing.radius = hdf5::read_dataset(balls, "radius");
-  const std::vector<std::int64_t> body = hdf5::read_whole_numbers(balls, "body");
-  packing.body.assign(body.begin(), body.end());
-  packing.n_rubber_grains =
-      static_cast<int>(hdf5::dataset_shape(hdf5::open_group(frame, "rubber_grains"), "centre").at(0));
-  const std::size_t n = packing.position.size();
-  const bool is_whole = n > 0 && packing.radius.size() == n && packing.body.size() == n &&
-                        static_cast<std::size_t>(packing.n_rubber_balls()) <= n &&
-                        std::is_sorted(packing.body.begin(), packing.body.end()) &&
-                        std::all_of(packing.radius.begin(), packing.radius.end(), [](double r) { return r > 0.0; });
-  if (!is_whole) throw IoError("the balls of the state do not fit together");
-  return packing;
-}
-
 std::vector<Vec3> read_normals(const hdf5::Handle& frame) {
   const hdf5::Handle contacts = hdf5::open_group(frame, "contacts");
   const std::vector<Vec3> all = rows_of_three(contacts, "normal");
@@ -88,6 +70,24 @@ StoredGrains read_first_state(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+Packing read_packing(const hdf5::Handle& frame) {
+  const hdf5::Handle balls = hdf5::open_group(frame, "balls");
+  Packing packing;
+  packing.position = rows_of_three(balls, "position");
+  packing.radius = hdf5::read_dataset(balls, "radius");
+  const std::vector<std::int64_t> body = hdf5::read_whole_numbers(balls, "body");
+  packing.body.assign(body.begin(), body.end());
+  packing.n_rubber_grains =
+      static_cast<int>(hdf5::dataset_shape(hdf5::open_group(frame, "rubber_grains"), "centre").at(0));
+  const std::size_t n = packing.position.size();
+  const bool is_whole = n > 0 && packing.radius.size() == n && packing.body.size() == n &&
+                        static_cast<std::size_t>(packing.n_rubber_balls()) <= n &&
+                        std::is_sorted(packing.body.begin(), packing.body.end()) &&
+                        std::all_of(packing.radius.begin(), packing.radius.end(), [](double r) { return r > 0.0; });
+  if (!is_whole) throw IoError("the balls of the state do not fit together");
+  return packing;
+}
 
 StoredGrains read_stored_grains(const std::filesystem::path& path) {
   const std::filesystem::path file = file_in(path);

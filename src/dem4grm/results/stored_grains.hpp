@@ -8,6 +8,7 @@
 
 #include "dem4grm/lab/case.hpp"
 #include "dem4grm/micro/homogeneity.hpp"
+#include "dem4grm/results/hdf5_handle.hpp"
 #include "dem4grm/specimen/packing.hpp"
 
 namespace dem {
@@ -25,6 +26,9 @@ struct StoredGrains {
 /// The first state of a file, or of a folder's specimen.h5, else its results.h5. Throws MissingFileError when there is
 /// none, IoError when the file is damaged or of another kind, Error with ExitCode::usage when it is of another test.
 StoredGrains read_stored_grains(const std::filesystem::path& path);
+
+/// The grains of one state, a group of /frames. Throws IoError when they do not fit together.
+Packing read_packing(const hdf5::Handle& frame);
 
 /// How even a stored specimen is, as summary.json says it of a run. Only before shear: the box must be whole.
 Homogeneity homogeneity_of(const StoredGrains& stored);

@@ -8,6 +8,7 @@
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/results/micro_table.hpp"
+#include "dem4grm/results/profile_file.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -205,6 +206,7 @@ JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearRe
   append(summary, curve_of(test, result));
   append(summary, {{"hardening", result.curve.is_hardening}});
   append(summary, volume_of(result.curve));
+  append(summary, {{"shear_band", shear_bands_as_json(facts.profiles)}});
   append(summary, {{"micro_at_peak", micro_at_peak(result)}});
   append(summary, ending_of(facts, result.state_hash));
   return summary;

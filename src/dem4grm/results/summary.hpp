@@ -7,6 +7,7 @@
 
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/lab/grain_compression.hpp"
+#include "dem4grm/micro/height_profile.hpp"
 #include "dem4grm/results/json_text.hpp"
 
 namespace dem {
@@ -18,6 +19,7 @@ struct RunFacts {
   double energy_closure = 0.0;    ///< per cent of the boundary work that no ledger accounts for
   std::vector<FrameInfo> frames;  ///< in the order in which they were written
   std::vector<std::string> warnings;
+  std::vector<StateProfile> profiles;  ///< of the stored states
 };
 
 /// Share of the boundary work, in per cent, that is neither stored nor in one of the losses. Energies in J; `start` and

@@ -2,6 +2,8 @@
 #include "dem4grm/results/table_file.hpp"
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -82,6 +84,10 @@ void append_energies(std::vector<double>& values, const EnergyReport& e) {
 
 }  // namespace
 
+double without_sign_of_nan(double value) {
+  return std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+}
+
 TableFile::TableFile(std::filesystem::path path, std::span<const ColumnInfo> columns)
     : columns_(columns), file_(std::move(path)), values_(columns.size()) {
   std::string header;
@@ -119,9 +125,9 @@ std::vector<double> shear_values(const ShearRow& row, double half_force_imbalanc
                              row.normal_stress_worst / 1e3,
                              row.time_step * 1e6,
                              row.normal_stress_corrected / 1e3,
-                             row.dilatancy.shear_ratio,
-                             row.dilatancy.rate,
-                             row.dilatancy.friction};
+                             without_sign_of_nan(row.dilatancy.shear_ratio),
+                             without_sign_of_nan(row.dilatancy.rate),
+                             without_sign_of_nan(row.dilatancy.friction)};
   append_energies(values, row.energy);
   return values;
 }

@@ -19,6 +19,9 @@ struct ColumnInfo {
   std::string_view description;
 };
 
+/// The value; the one "not a number" that is printed without a sign when there is none.
+double without_sign_of_nan(double value);
+
 class TableFile {
  public:
   /// Writes the header. Throws IoError.

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array k_results_of_run{file_name::k_summary,    file_name::k_status,           file_name::k_shear,
                                       file_name::k_grain,      file_name::k_results,          file_name::k_specimen,
                                       file_name::k_checkpoint, file_name::k_specimen_summary, file_name::k_micro,
-                                      file_name::k_walls};
+                                      file_name::k_walls,      file_name::k_profiles};
 
 std::optional<std::string> content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

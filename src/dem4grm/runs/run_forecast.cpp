@@ -35,9 +35,11 @@ constexpr double k_usual_branches = 4.5, k_branch_rest = 4000.0, k_smooth_rest_p
 constexpr double k_fill_of_gravel = 7000.0, k_fill_of_rubber = 19000.0, k_rest_steps = 18000.0;
 // Compressed bytes in a full state, measured on states of gravel, rubber and a mixture.
 constexpr double k_bytes_per_ball = 46.0, k_bytes_per_bond = 27.0, k_bytes_per_clump = 106.0,
-                 k_bytes_per_contact = 71.0, k_bytes_per_row = 330.0;
-// micro.csv with its copy in results.h5.
-constexpr double k_bytes_of_micro = 50e3, k_bytes_per_micro_row = 3e3;
+                 k_bytes_per_contact = 71.0;
+// The tables with their copies in results.h5, where every column is a dataset with a head of its own: shear.csv and walls.csv
+// by row, micro.csv by row, profiles.csv by state.
+constexpr double k_bytes_of_tables = 450e3, k_bytes_per_row = 1090.0, k_bytes_per_micro_row = 3.9e3,
+                 k_bytes_of_profile = 3.2e3;
 constexpr double k_checkpoint_bytes_per_ball = 200.0;
 
 /// Mean time of a step over so many seconds, on so many threads; s.
@@ -127,8 +129,8 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, const 
 
   const double state = k_bytes_per_ball * facts.balls + k_bytes_per_bond * facts.bonds +
                        k_bytes_per_clump * facts.clumps + k_bytes_per_contact * trial.contacts;
-  out.results_size = state * static_cast<double>(state_displacements(test).size() + 1) + k_bytes_per_row * facts.rows +
-                     k_bytes_of_micro +  // one more state: specimen.h5
+  out.results_size = (state + k_bytes_of_profile) * static_cast<double>(state_displacements(test).size() + 1) +
+                     k_bytes_per_row * facts.rows + k_bytes_of_tables +  // one more state: specimen.h5
                      k_bytes_per_micro_row * static_cast<double>(micro_displacements(test).size());
   out.checkpoint_size = k_checkpoint_bytes_per_ball * facts.balls;
   out.results_size += out.checkpoint_size;  // the complete state in specimen.h5

@@ -10,6 +10,7 @@
 #include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/results/micro_table.hpp"
 #include "dem4grm/results/output_file.hpp"
+#include "dem4grm/results/profile_file.hpp"
 #include "dem4grm/results/specimen_file.hpp"
 #include "dem4grm/runs/checkpoint_file.hpp"
 #include "dem4grm/version.hpp"
@@ -188,7 +189,7 @@ void TestWriter::frame(const Simulation& state, const FrameInfo& info) {
 }
 
 RunFacts TestWriter::facts() const {
-  return {threads_, seconds(), energy_closure_per_cent(start_energy_, last_energy_), frames_, warnings_};
+  return {threads_, seconds(), energy_closure_per_cent(start_energy_, last_energy_), frames_, warnings_, profiles_};
 }
 
 void TestWriter::write_tables() {
@@ -198,6 +199,17 @@ void TestWriter::write_tables() {
   results_->add_table(is_direct_shear_ ? "shear" : "compression", *table_);
   if (wall_table_) results_->add_table("walls", *wall_table_);
   if (micro_table_) results_->add_table("micro", *micro_table_);
+}
+
+/// Read back from the file, so that a test that was stopped on its way has those of its earlier parts too.
+void TestWriter::write_profiles() {
+  profiles_ = read_profiles(folder_.file(file_name::k_results));
+  TableFile table(folder_.file(file_name::k_profiles), profile_columns());
+  for (const StateProfile& state : profiles_) {
+    for (const ProfileLayer& layer : state.layers) table.append(profile_values(state, layer));
+  }
+  table.sync();
+  results_->add_table("profiles", table);
 }
 
 void TestWriter::sync_tables() {
@@ -217,6 +229,7 @@ void TestWriter::write_summary(const JsonObject& summary) {
 
 JsonObject TestWriter::finish(const DirectShearResult& result) {
   write_tables();
+  write_profiles();
   JsonObject summary = direct_shear_summary(std::get<DirectShearCase>(loaded_.test), result, facts());
   write_summary(summary);
   return summary;

@@ -75,6 +75,7 @@ class TestWriter : public LabObserver {
   void take_row(const ShearRow& row);
   void write_tables();
   void sync_tables();
+  void write_profiles();
   void write_summary(const JsonObject& summary);
 
   const OutputFolder& folder_;
@@ -98,6 +99,7 @@ class TestWriter : public LabObserver {
   EnergyReport start_energy_, last_energy_;
   std::vector<FrameInfo> frames_;
   std::vector<std::string> warnings_;
+  std::vector<StateProfile> profiles_;
 };
 
 }  // namespace dem

@@ -6,50 +6,27 @@
 #include <utility>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/specimen/solid_columns.hpp"
 
 namespace dem {
 namespace {
 
-constexpr double k_cell_edge = 4.0;            // of the mean grain size
-constexpr double k_column_spacing = 1.0 / 16;  // of the mean grain size
-constexpr double k_layer = 1.0 / 8;            // of the mean grain size
-constexpr int k_most_layers = 20;              // 2.5 mean grain sizes
-constexpr double k_near = 0.5, k_far = 1.5;    // of the mean grain size
+constexpr double k_cell_edge = 4.0;          // of the mean grain size
+constexpr double k_layer = 1.0 / 8;          // of the mean grain size
+constexpr int k_most_layers = 20;            // 2.5 mean grain sizes
+constexpr double k_near = 0.5, k_far = 1.5;  // of the mean grain size
 
-using Interval = std::pair<double, double>;
-
-/// Columns along one horizontal axis; every cell has the same number of them.
-struct Axis {
-  double low = 0.0, length = 0.0, step = 0.0;
-  int cells = 1, columns = 1;
-
-  Axis(double from, double to, double mean_size) : low(from), length(to - from) {
-    cells = std::max(1, static_cast<int>(length / (k_cell_edge * mean_size) + 1e-6));
-    columns = cells * static_cast<int>(std::ceil(length / cells / (k_column_spacing * mean_size)));
-    step = length / columns;
-  }
-  [[nodiscard]] double middle(int column) const { return low + (column + 0.5) * step; }
-  [[nodiscard]] int cell_of(int column) const { return column / (columns / cells); }
-  /// Distance of a column to the nearer end.
-  [[nodiscard]] double to_wall(int column) const { return (std::min(column, columns - 1 - column) + 0.5) * step; }
-  /// First column whose middle is not below the value, inside [0, columns].
-  [[nodiscard]] int first_from(double value) const {
-    const double k = std::ceil((value - low) / step - 0.5);
-    return static_cast<int>(std::clamp(k, 0.0, static_cast<double>(columns)));
-  }
-};
-
-/// Length of what two intervals share.
-double shared(double a, double b, double low, double high) {
-  return std::max(0.0, std::min(b, high) - std::max(a, low));
+ColumnAxis axis_of(double from, double to, double mean_size) {
+  const int cells = std::max(1, static_cast<int>((to - from) / (k_cell_edge * mean_size) + 1e-6));
+  return {from, to, cells, k_column_spacing * mean_size};
 }
 
 /// Takes pieces of columns and adds them up in cells, zones and layers.
 class Collector {
  public:
   Collector(const Bounds& room, double mean_size)
-      : x_(room.low.x, room.high.x, mean_size),
-        y_(room.low.y, room.high.y, mean_size),
+      : x_(axis_of(room.low.x, room.high.x, mean_size)),
+        y_(axis_of(room.low.y, room.high.y, mean_size)),
         low_(room.low.z),
         high_(room.high.z),
         mean_size_(mean_size),
@@ -65,8 +42,8 @@ class Collector {
     measure_room();
   }
 
-  [[nodiscard]] const Axis& x() const { return x_; }
-  [[nodiscard]] const Axis& y() const { return y_; }
+  [[nodiscard]] const ColumnAxis& x() const { return x_; }
+  [[nodiscard]] const ColumnAxis& y() const { return y_; }
 
   /// The solid from z = a to z = b of column (i, j); `fill` multiplies its volume.
   void add(int i, int j, double a, double b, double fill, double Cell::*material) {
@@ -123,66 +100,10 @@ class Collector {
     }
   }
 
-  Axis x_, y_;
+  ColumnAxis x_, y_;
   double low_, high_, cell_height_ = 0.0, mean_size_, layer_;
   SolidDistribution out_;
 };
-
-/// Half of the chord of a sphere in the column (i, j); 0 when the column misses it.
-double half_chord(const Collector& to, int i, int j, const Pebble& ball) {
-  const double dx = to.x().middle(i) - ball.position.x, dy = to.y().middle(j) - ball.position.y;
-  const double square = ball.radius * ball.radius - dx * dx - dy * dy;
-  return square > 0.0 ? std::sqrt(square) : 0.0;
-}
-
-/// Columns [first, last) along both axes under the balls.
-struct Patch {
-  int x_first, x_last, y_first, y_last;
-};
-
-Patch patch_under(const Collector& to, std::span<const Pebble> balls) {
-  Vec3 low = balls.front().position, high = low;
-  for (const Pebble& ball : balls) {
-    low = {std::min(low.x, ball.position.x - ball.radius), std::min(low.y, ball.position.y - ball.radius), 0.0};
-    high = {std::max(high.x, ball.position.x + ball.radius), std::max(high.y, ball.position.y + ball.radius), 0.0};
-  }
-  return {to.x().first_from(low.x), to.x().first_from(high.x), to.y().first_from(low.y), to.y().first_from(high.y)};
-}
-
-/// One clump: in every column the union of the intervals of its pebbles.
-void add_clump(Collector& to, std::span<const Pebble> pebbles, std::vector<Interval>& intervals) {
-  const Patch patch = patch_under(to, pebbles);
-  for (int i = patch.x_first; i < patch.x_last; ++i) {
-    for (int j = patch.y_first; j < patch.y_last; ++j) {
-      intervals.clear();
-      for (const Pebble& pebble : pebbles) {
-        const double half = half_chord(to, i, j, pebble);
-        if (half > 0.0) intervals.emplace_back(pebble.position.z - half, pebble.position.z + half);
-      }
-      if (intervals.empty()) continue;
-      std::sort(intervals.begin(), intervals.end());
-      Interval open = intervals.front();
-      for (const Interval& next : intervals) {
-        if (next.first > open.second) {
-          to.add(i, j, open.first, open.second, 1.0, &Cell::gravel);
-          open = next;
-        }
-        open.second = std::max(open.second, next.second);
-      }
-      to.add(i, j, open.first, open.second, 1.0, &Cell::gravel);
-    }
-  }
-}
-
-void add_rubber_ball(Collector& to, const Pebble& ball, double rubber_fill) {
-  const Patch patch = patch_under(to, {&ball, 1});
-  for (int i = patch.x_first; i < patch.x_last; ++i) {
-    for (int j = patch.y_first; j < patch.y_last; ++j) {
-      const double half = half_chord(to, i, j, ball);
-      if (half > 0.0) to.add(i, j, ball.position.z - half, ball.position.z + half, rubber_fill, &Cell::rubber);
-    }
-  }
-}
 
 }  // namespace
 
@@ -192,12 +113,7 @@ SolidDistribution solid_distribution(const Packing& packing, const Bounds& room,
     throw InputError("the distribution of the solid needs a room and a grain size that are positive");
   }
   Collector collector(room, mean_size);
-  for (int k = 0; k < packing.n_rubber_balls(); ++k) {
-    const auto ball = static_cast<std::size_t>(k);
-    add_rubber_ball(collector, {packing.position[ball], packing.radius[ball]}, rubber_fill);
-  }
-  std::vector<Interval> intervals;
-  for_each_clump(packing, [&](std::span<const Pebble> pebbles) { add_clump(collector, pebbles, intervals); });
+  add_solid(packing, rubber_fill, collector);
   return collector.take();
 }
 

@@ -65,6 +65,7 @@ TEST(Summary, HasAllPromisedNames) {
                            "dilatancy_at_peak",
                            "dilatancy_fastest",
                            "dilatancy_residual",
+                           "shear_band",
                            "normal_stress_target_kPa",
                            "normal_stress_mean_kPa",
                            "normal_stress_max_error",
@@ -91,7 +92,8 @@ TEST(Summary, HasAllPromisedNames) {
 TEST(Summary, ConvertsUnits) {
   DirectShearCase test;
   test.shear.normal_stress = 100e3;
-  const JsonObject summary = direct_shear_summary(test, sample_result(), {2, 1.5, 0.0, {{0, 2e-3, "h"}}, {"careful"}});
+  const JsonObject summary =
+      direct_shear_summary(test, sample_result(), {2, 1.5, 0.0, {{0, 2e-3, "h"}}, {"careful"}, {}});
   EXPECT_DOUBLE_EQ(number_in(summary, "normal_stress_target_kPa"), 100.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "peak_shear_stress_kPa"), 88.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "displacement_at_peak_mm"), 3.0);
