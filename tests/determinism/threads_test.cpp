@@ -125,7 +125,7 @@ TEST(Observation, ChangesNothing) {
   const BoxSettings box = mixture_box(o);
   watched.set_time_step(1e-6);
   watched.servo = {ShearBox::k_top_plate, 100e3 * box.length * box.width, 0.5, 1.0};
-  const Bounds everywhere{{-1, -1, -1}, {1, 1, 1}};
+  const std::array everywhere{Bounds{{-1, -1, -1}, {1, 1, 1}}};
   for (int k = 0; k < k_steps; ++k) {
     ShearBox::set_velocities(watched.walls, MovingHalf::lower, 0.5, watched.walls[ShearBox::k_top_plate].velocity.z);
     watched.step();

@@ -9,9 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "dem4grm/case_file/grading_file.hpp"
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/laws/inertial_number.hpp"
+#include "dem4grm/specimen/grading.hpp"
+#include "dem4grm/specimen/slit_sizes.hpp"
 
 namespace dem {
 namespace {
@@ -83,7 +84,6 @@ void check_shapes(const SpecimenSettings& specimen, Rules& rules) {
 /// The grains that the box must hold. Zero when there is none or when its grading is wrong.
 struct GrainSizes {
   double largest = 0.0;
-  double smallest = 0.0;
 };
 
 GrainSizes grain_sizes(const SpecimenSettings& specimen, const GivenKeys& given) {
@@ -91,8 +91,6 @@ GrainSizes grain_sizes(const SpecimenSettings& specimen, const GivenKeys& given)
   const auto take = [&](std::string_view key, const Grading& grading, bool is_present) {
     if (!is_present || grading.empty() || !given.are_good({key, "specimen.rubber_content"})) return;
     sizes.largest = std::max(sizes.largest, largest_grain(grading));
-    const double smallest = smallest_grain(grading);
-    sizes.smallest = sizes.smallest == 0.0 ? smallest : std::min(sizes.smallest, smallest);
   };
   take("specimen.gravel_grading", specimen.gravel_grading, has_gravel(specimen));
   take("specimen.rubber_grading", specimen.rubber_grading, has_rubber(specimen));
@@ -154,10 +152,26 @@ void check_box_against_grains(const DirectShearCase& test, Rules& rules) {
   check_side("box.length", test.box.length, 10.0);
   check_side("box.width", test.box.width, 10.0);
   check_side("box.height", test.box.height, 6.0);
-  if (rules.given.are_good({"box.gap"}) && test.box.gap >= grains.smallest) {
-    rules.problems.error(rules.given.place_of({"box.gap"}),
-                         fmt::format("box.gap = {} lets the smallest grains ({}) through", length_text(test.box.gap),
-                                     length_text(grains.smallest)));
+}
+
+void check_gap(const DirectShearCase& test, Rules& rules) {
+  const auto& [given, problems] = rules;
+  if (test.box.gap == 0.0 ||
+      !given.are_good({"box.gap", "specimen.rubber_content", "specimen.gravel_grading", "specimen.rubber_grading",
+                       "specimen.clump_shapes", "specimen.clump_templates"})) {
+    return;
+  }
+  const SlitSizes sizes = slit_sizes(test.specimen, test.rubber.density, test.rubber_solid_density);
+  const Place place = given.place_of({"box.gap"});
+  if (test.box.gap >= sizes.passes) {
+    problems.error(place,
+                   fmt::format("box.gap = {} lets grains out of the box: {}", length_text(test.box.gap), sizes.grain),
+                   fmt::format("a gap below {:.2f} mm keeps every grain in", std::floor(sizes.passes * 1e5) / 100.0));
+  } else if (test.box.gap >= sizes.enters) {
+    problems.warning(place,
+                     fmt::format("box.gap = {} lets parts of grains in, which may wedge: the smallest pebbles or "
+                                 "balls are {:.4g} mm thick",
+                                 length_text(test.box.gap), sizes.enters * 1e3));
   }
 }
 
@@ -298,6 +312,7 @@ void check_rules(const DirectShearCase& test, const GivenKeys& given, CaseProble
   check_preparation(test, rules);
   check_shapes(test.specimen, rules);
   check_box_against_grains(test, rules);
+  check_gap(test, rules);
   check_box(test, rules);
   check_recording(test, rules);
   check_shear(test, rules);

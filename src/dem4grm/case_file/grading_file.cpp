@@ -155,19 +155,4 @@ GradingFile read_grading_file(const std::filesystem::path& path) {
   return parse_grading(read_text_file(path), printable(path.string(), 300));
 }
 
-double largest_grain(const Grading& grading) {
-  for (const GradingPoint& point : grading) {
-    if (point.passing >= 1.0) return point.size;
-  }
-  return grading.empty() ? 0.0 : grading.back().size;
-}
-
-double smallest_grain(const Grading& grading) {
-  double size = 0.0;
-  for (const GradingPoint& point : grading) {
-    if (point.passing <= 0.0) size = point.size;
-  }
-  return size;
-}
-
 }  // namespace dem

@@ -39,9 +39,4 @@ GradingFile read_grading_file(const std::filesystem::path& path);
 /// The same from text; `name` is the file in messages. Never throws on any bytes.
 GradingFile parse_grading(std::string_view text, std::string_view name);
 
-/// m; the finest sieve that everything passes. The grading must be free of faults.
-double largest_grain(const Grading& grading);
-/// m; the coarsest sieve that nothing passes. The grading must be free of faults.
-double smallest_grain(const Grading& grading);
-
 }  // namespace dem

@@ -114,38 +114,41 @@ OverlapReport worst_overlap(const Simulation& s) {
 
 namespace {
 
-bool is_inside(const Vec3& p, const Bounds& b) {
-  return p.x >= b.low.x && p.x <= b.high.x && p.y >= b.low.y && p.y <= b.high.y && p.z >= b.low.z && p.z <= b.high.z;
+bool is_in_one_of(std::span<const Bounds> rooms, const Vec3& p) {
+  return std::any_of(rooms.begin(), rooms.end(), [&](const Bounds& room) { return is_inside(p, room); });
 }
 
 }  // namespace
 
-std::string find_trouble(const Simulation& s, const Bounds& bounds, double overlap_limit) {
+Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double overlap_limit) {
   for (int id = 0; id < s.balls.n_balls(); ++id) {
     const int i = s.balls.index_of_id(id);
     const Vec3 p = s.balls.position(i), v = s.balls.velocity(i), w = s.balls.spin(i);
     if (!std::isfinite(p.x + p.y + p.z + v.x + v.y + v.z + w.x + w.y + w.z)) {
-      return fmt::format("{} has a position or velocity that is no number", s.name_of_ball(id));
+      return {TroubleKind::no_number,
+              fmt::format("{} has a position or velocity that is no number", s.name_of_ball(id)), p};
     }
-    if (!is_inside(p, bounds)) {
-      return fmt::format("{} left the box: its centre is at ({:.2f}, {:.2f}, {:.2f}) mm", s.name_of_ball(id), p.x * 1e3,
-                         p.y * 1e3, p.z * 1e3);
+    if (!is_in_one_of(rooms, p)) {
+      return {TroubleKind::outside,
+              fmt::format("{} left the box: its centre is at ({:.2f}, {:.2f}, {:.2f}) mm", s.name_of_ball(id),
+                          p.x * 1e3, p.y * 1e3, p.z * 1e3),
+              p};
     }
   }
   const OverlapReport o = worst_overlap(s);
-  if (o.largest > overlap_limit) {
-    const std::string partner = o.wall >= 0 ? s.walls[static_cast<std::size_t>(o.wall)].name : s.name_of_ball(o.ball_j);
-    return fmt::format("the overlap of {} and {} is {:.2f} of the smaller radius (limit {:.2f})",
-                       s.name_of_ball(o.ball_i), partner, o.largest, overlap_limit);
-  }
-  return {};
+  if (o.largest <= overlap_limit) return {};
+  const std::string partner = o.wall >= 0 ? s.walls[static_cast<std::size_t>(o.wall)].name : s.name_of_ball(o.ball_j);
+  return {TroubleKind::overlap,
+          fmt::format("the overlap of {} and {} is {:.2f} of the smaller radius (limit {:.2f})",
+                      s.name_of_ball(o.ball_i), partner, o.largest, overlap_limit),
+          {}};
 }
 
-int count_lost_bodies(const Simulation& s, const Bounds& bounds) {
+int count_lost_bodies(const Simulation& s, std::span<const Bounds> rooms) {
   std::vector<char> lost(static_cast<std::size_t>(s.n_bodies()), 0);
   for (int id = 0; id < s.balls.n_balls(); ++id) {
     const Vec3 p = s.balls.position(s.balls.index_of_id(id));
-    if (!is_inside(p, bounds)) lost[static_cast<std::size_t>(s.body_of_ball(id))] = 1;
+    if (!is_in_one_of(rooms, p)) lost[static_cast<std::size_t>(s.body_of_ball(id))] = 1;
   }
   return static_cast<int>(std::count(lost.begin(), lost.end(), 1));
 }

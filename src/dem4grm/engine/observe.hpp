@@ -2,9 +2,12 @@
 // Numbers that describe a state: how far from rest, how deep the overlaps, whether anything is lost.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "dem4grm/core/bounds.hpp"
 #include "dem4grm/engine/simulation.hpp"
 
 namespace dem {
@@ -33,17 +36,21 @@ struct OverlapReport {
 };
 OverlapReport worst_overlap(const Simulation& s);
 
-/// Where grains may be: the box that holds all of it, m.
-struct Bounds {
-  Vec3 low, high;
+enum class TroubleKind : std::uint8_t { none, no_number, outside, overlap };
+
+/// What a watchdog found first.
+struct Trouble {
+  TroubleKind kind = TroubleKind::none;
+  std::string text;  ///< one sentence that names the worst offender; empty when all is well
+  Vec3 place;        ///< m, of a ball outside
 };
 
-/// Empty when all is well; else one sentence that names the worst offender: a value that is no number, a ball outside
-/// the bounds, an overlap beyond the limit (over the smaller radius).
-std::string find_trouble(const Simulation& s, const Bounds& bounds, double overlap_limit);
+/// A value that is no number, a ball whose centre lies in none of the rooms, an overlap beyond the limit (over the smaller
+/// radius).
+Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double overlap_limit);
 
-/// Number of balls outside the bounds, belonging to how many bodies.
-int count_lost_bodies(const Simulation& s, const Bounds& bounds);
+/// Number of bodies with a ball whose centre lies in none of the rooms.
+int count_lost_bodies(const Simulation& s, std::span<const Bounds> rooms);
 
 /// Centre of a rubber grain (mean of its balls) and of a clump.
 Vec3 body_position(const Simulation& s, int body);

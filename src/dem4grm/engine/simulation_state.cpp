@@ -73,6 +73,8 @@ void exchange_walls(StateArchive& archive, Simulation& s) {
   for (std::size_t w = 0; w < s.walls.size(); ++w) {
     archive.group(std::to_string(w), [&] {
       archive.exchange("corner", s.walls[w].corner);
+      archive.exchange("length_u", s.walls[w].length_u);
+      archive.exchange("length_v", s.walls[w].length_v);
       archive.exchange("velocity", s.walls[w].velocity);
       archive.exchange("friction", s.walls[w].friction);
       archive.exchange("last_velocity", s.last_wall_velocity[w]);

@@ -94,7 +94,7 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
   out.rubber_grains = s.balls.n_grains;
   out.bonds = s.balls.n_grains * k_grain_bonds;
   out.broken_bonds = count_broken_bonds(s);
-  out.lost_grains = count_lost_bodies(s, specimen.bounds);
+  out.lost_grains = count_lost_bodies(s, ShearBox::rooms_of(s.walls));
   out.steps = s.steps + specimen.report.fill_steps + specimen.report.other_branch_steps();
   out.time_step = s.dt;
   out.state_hash = s.state_hash();

@@ -107,7 +107,7 @@ GrainCompressionResult run_grain_compression(const GrainCompressionCase& test, L
   s.set_time_step(out.time_step_limit.seconds);
   out.time_step = s.dt;
   const double reach = 4.0 * out.grain_height;
-  const Bounds bounds{{-reach, -reach, -reach}, {reach, reach, reach}};
+  const std::array room{Bounds{{-reach, -reach, -reach}, {reach, reach, reach}}};
 
   double approach = 0.0, load = 0.0;
   int summed = 0;
@@ -122,9 +122,10 @@ GrainCompressionResult run_grain_compression(const GrainCompressionCase& test, L
     load += 0.5 * (s.reactions[1].force.z - s.reactions[0].force.z);
     ++summed;
     if (approach < test.strain * out.grain_height * record / test.records) continue;
-    const std::string trouble = find_trouble(s, bounds, 1.5);
-    if (!trouble.empty())
-      throw PhysicsError(fmt::format("{} at {:.1f} % strain", trouble, 100.0 * approach / out.grain_height));
+    const Trouble trouble = find_trouble(s, room, 1.5);
+    if (trouble.kind != TroubleKind::none) {
+      throw PhysicsError(fmt::format("{} at {:.1f} % strain", trouble.text, 100.0 * approach / out.grain_height));
+    }
     CompressionRow row;
     row.displacement = approach;
     row.strain = approach / out.grain_height;

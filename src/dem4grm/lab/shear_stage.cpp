@@ -168,15 +168,15 @@ void ShearStage::report() {
 }
 
 void ShearStage::watch() {
-  const std::string trouble = find_trouble(s_, specimen_.bounds, k_overlap_limit);
-  if (trouble.empty()) {
+  const Trouble trouble = find_trouble(s_, ShearBox::rooms_of(s_.walls), k_overlap_limit);
+  if (trouble.kind == TroubleKind::none) {
     if (!rows_.empty()) report();
     return;
   }
+  const std::string advice = advice_for(trouble, test_.box, s_.walls);
   throw PhysicsError(
-      fmt::format("{} (stage shear, {:.3f} mm). Try a smaller integration.time_step_safety or a slower "
-                  "shear.velocity",
-                  trouble, displacement_ * 1e3));
+      fmt::format("{} (stage shear, {:.3f} mm){}", trouble.text, displacement_ * 1e3,
+                  advice.empty() ? ". Try a smaller integration.time_step_safety or a slower shear.velocity" : advice));
 }
 
 void ShearStage::write_frame() {

@@ -92,6 +92,7 @@ JsonObject beginning_of(const DirectShearCase& test, const DirectShearResult& re
                    {"wall_time_s", facts.wall_time}});
   append(summary, specimen_of(test, result));
   append(summary, homogeneity_fields(result.before.homogeneity));
+  append(summary, {{"split_height_mm", result.specimen.split_height * 1e3}});
   append(summary, {{"k0_x", result.before.lateral.k0_x}, {"k0_y", result.before.lateral.k0_y}});
   return summary;
 }

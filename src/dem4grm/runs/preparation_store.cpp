@@ -39,6 +39,7 @@ std::string preparation_text(const DirectShearCase& test) {
   kept.specimen.largest_friction = plain.largest_friction;
   kept.specimen.branch_stress_ratio = plain.branch_stress_ratio;
   kept.specimen.load_steps.clear();
+  kept.box.split_plane = SplitPlane::nominal;  // until the final friction
   kept.servo.shear_speed_cap = ServoSettings{}.shear_speed_cap;
   kept.shear = {};
   kept.recording = {};

@@ -71,4 +71,19 @@ double d60(const Grading& grading) { return size_at_passing(grading, 0.60); }
 
 double uniformity_coefficient(const Grading& grading) { return d60(grading) / d10(grading); }
 
+double largest_grain(const Grading& grading) {
+  for (const GradingPoint& point : grading) {
+    if (point.passing >= 1.0) return point.size;
+  }
+  return grading.empty() ? 0.0 : grading.back().size;
+}
+
+double smallest_grain(const Grading& grading) {
+  double size = 0.0;
+  for (const GradingPoint& point : grading) {
+    if (point.passing <= 0.0) size = point.size;
+  }
+  return size;
+}
+
 }  // namespace dem

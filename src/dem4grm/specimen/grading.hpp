@@ -35,4 +35,9 @@ double d60(const Grading& grading);
 /// Coefficient of uniformity D60 / D10, dimensionless.
 double uniformity_coefficient(const Grading& grading);
 
+/// m; the finest sieve that everything passes. The grading must be free of faults.
+double largest_grain(const Grading& grading);
+/// m; the coarsest sieve that nothing passes. The grading must be free of faults.
+double smallest_grain(const Grading& grading);
+
 }  // namespace dem

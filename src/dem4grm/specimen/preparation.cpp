@@ -37,8 +37,6 @@ class Preparation {
     out_.load = {ShearBox::k_top_plate, order.box.length * order.box.width,
                  order.normal_stress,   order.specimen.approach_speed,
                  order.servo.gain,      out_.grains.solid_volume()};
-    out_.bounds = {{-order.box.wing, 0.0, 0.0},
-                   {order.box.length + order.box.wing, order.box.width, order.box.upper_height}};
     layer_ = {out_.load.solid_volume * (1.0 + out_.report.void_ratio_generated) / out_.load.area, out_.report.mean_size,
               out_.report.mean_density};
     target_ = {order.specimen.relative_density.value_or(k_default_relative_density),
@@ -279,12 +277,21 @@ class Preparation {
     rest_ = {};
     set_plate_friction(order_.materials.walls.friction);
     Simulation& s = *out_.simulation;
+    if (order_.box.split_plane == SplitPlane::specimen) part_at_half_of_specimen();
     s.set_friction(s.material_friction());
     watch(true);
   }
 
+  void part_at_half_of_specimen() {
+    Simulation& s = *out_.simulation;
+    ShearBox::part_at(s.walls, order_.box, 0.5 * s.walls[ShearBox::k_top_plate].corner.z);
+    s.near.is_valid = false;  // found for other walls
+    s.invalidate_candidates();
+  }
+
   void finish() {
     const Simulation& s = *out_.simulation;
+    out_.report.split_height = ShearBox::split_height(s.walls);
     out_.report.void_ratio_before_shear = rest_.void_ratio;
     out_.report.friction_steps = rest_.steps;
     out_.report.height = s.walls[ShearBox::k_top_plate].corner.z;
@@ -297,8 +304,11 @@ class Preparation {
       static_assert(k_review_interval % k_rest_interval == 0 && k_review_interval_with_rubber % k_rest_interval == 0);
       review_time_step(s, out_.report.time_step.seconds);
       if (rest_.steps % (5 * k_rest_interval) == 0) {
-        const std::string trouble = find_trouble(s, out_.bounds, k_overlap_limit);
-        if (!trouble.empty()) throw PhysicsError(fmt::format("{} (stage {}, step {})", trouble, label(), rest_.steps));
+        const Trouble trouble = find_trouble(s, ShearBox::rooms_of(s.walls), k_overlap_limit);
+        if (trouble.kind != TroubleKind::none) {
+          throw PhysicsError(fmt::format("{} (stage {}, step {}){}", trouble.text, label(), rest_.steps,
+                                         advice_for(trouble, order_.box, s.walls)));
+        }
       }
       watch(false);
     });

@@ -17,6 +17,7 @@ void exchange(StateArchive& archive, SpecimenReport& r) {
   archive.exchange("void_ratio_prepared", r.void_ratio_prepared);
   archive.exchange("void_ratio_before_shear", r.void_ratio_before_shear);
   archive.exchange("height", r.height);
+  archive.exchange("split_height", r.split_height);
   archive.exchange("alignment_generated", r.alignment_generated);
   archive.exchange("alignment_before_shear", r.alignment_before_shear);
   archive.exchange("fill_overlap", r.fill_overlap);

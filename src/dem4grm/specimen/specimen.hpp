@@ -48,6 +48,7 @@ struct SpecimenReport {
   double void_ratio_prepared = 0.0;   ///< at the normal stress, with the preparation friction
   double void_ratio_before_shear = 0.0;
   double height = 0.0;               ///< m, before shear
+  double split_height = 0.0;         ///< m, of the plane at which the halves part
   double alignment_generated = 0.0;  ///< rubber_alignment after the fill
   double alignment_before_shear = 0.0;
   double fill_overlap = 0.0;  ///< largest, over the smaller radius
@@ -72,8 +73,10 @@ struct Specimen {
   GrainList grains;               ///< in the order of the clumps of the simulation
   std::vector<int> gravel_order;  ///< [n_clumps] number of each clump in the list that was drawn
   SpecimenReport report;
-  Bounds bounds;
 };
+
+/// What to do about it: a sentence that begins with a capital letter, or nothing.
+std::string advice_for(const Trouble& trouble, const BoxSettings& box, const std::vector<Wall>& walls);
 
 /// Where a preparation stands.
 struct PreparationState {

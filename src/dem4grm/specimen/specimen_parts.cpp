@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/specimen/specimen_parts.hpp"
 
+#include <fmt/format.h>
+
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/core/space_curve.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
@@ -60,6 +63,15 @@ Fill fill_of_nowhere(const SpecimenOrder& order, const GrainList& grains) {
   nowhere.rubber.resize(static_cast<std::size_t>(grains.rubber_count));
   nowhere.height = order.box.height;
   return nowhere;
+}
+
+std::string advice_for(const Trouble& trouble, const BoxSettings& box, const std::vector<Wall>& walls) {
+  if (trouble.kind != TroubleKind::outside || box.gap == 0.0) return {};
+  const auto [lower, upper] = ShearBox::rooms_of(walls);
+  const double gap_begin = upper.low.z, gap_end = lower.high.z;
+  if (trouble.place.z < gap_begin || trouble.place.z > gap_end) return {};
+  return fmt::format(". It is on its way out through the gap between the halves; make box.gap ({}) smaller",
+                     format_quantity(box.gap, Dimension::length));
 }
 
 FrictionTable preparation_friction(double friction) {

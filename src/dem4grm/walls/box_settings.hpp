@@ -6,13 +6,17 @@
 
 namespace dem {
 
+/// Where the halves part: at half of the nominal height, or at half of the specimen's height under its normal stress.
+enum class SplitPlane : std::uint8_t { nominal, specimen };
+
 struct BoxSettings {
   double length = 0.100;        ///< m, along x, the shear direction
   double width = 0.100;         ///< m, along y
-  double height = 0.053;        ///< m, nominal height of the specimen; the halves part at half of it
+  double height = 0.053;        ///< m, nominal height of the specimen
   double upper_height = 0.080;  ///< m, height of the upper walls
   double gap = 0.0;             ///< m, between the halves
   double wing = 0.020;          ///< m, length of the wings
+  SplitPlane split_plane = SplitPlane::nominal;
 };
 
 struct ServoSettings {

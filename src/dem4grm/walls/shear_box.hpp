@@ -4,7 +4,7 @@
 //        upper half (walls from the split plane up)        plate, moves in z only within the upper half
 //          |==================================|
 //          |                                  |  upper wing
-//   _______|                                  |_________     split plane z = height / 2
+//   _______|                                  |_________     split plane, BoxSettings::split_plane
 //   lower wing |                                  |
 //              |                                  |
 //              |__________________________________|
@@ -15,8 +15,10 @@
 // test.
 #pragma once
 
+#include <array>
 #include <vector>
 
+#include "dem4grm/core/bounds.hpp"
 #include "dem4grm/walls/box_settings.hpp"
 #include "dem4grm/walls/wall.hpp"
 
@@ -33,14 +35,27 @@ class ShearBox {
   /// Of the lower half; those of the upper half stand k_top_plate later.
   static constexpr int k_side_x_min = 1, k_side_x_max = 2, k_side_y_min = 3, k_side_y_max = 4;
 
-  /// plate_height: z of the top plate, m.
+  /// plate_height: z of the top plate, m. The halves part at half of settings.height.
   ShearBox(const BoxSettings& settings, double plate_height);
+  /// They part at split_height, m.
+  ShearBox(const BoxSettings& settings, double plate_height, double split_height);
 
   /// Walls 0 to 5: bottom plate, four sides and wing of the lower half; 6 to 11: top plate, sides and wing of the
   /// upper.
   [[nodiscard]] const std::vector<Wall>& walls() const { return walls_; }
   [[nodiscard]] std::vector<Wall>& walls() { return walls_; }
   static BoxHalf half_of(int wall) { return wall < k_top_plate ? BoxHalf::lower : BoxHalf::upper; }
+
+  /// Where the centre of a ball may be: the lower half and the upper half, each with the gap between them, as they stand.
+  /// A centre that lies in neither has passed a wall or is on its way out through the gap.
+  static std::array<Bounds, 2> rooms_of(const std::vector<Wall>& walls);
+
+  /// Height of the plane at which the halves part, in the middle of the gap, m.
+  static double split_height(const std::vector<Wall>& walls);
+
+  /// Moves the plane at which the halves part, before they have moved against each other. Walls that touch a grain keep
+  /// pushing it alike: the sides are frictionless planes through both halves. height: of the plane, m.
+  static void part_at(std::vector<Wall>& walls, const BoxSettings& settings, double height);
 
   /// Velocities of all walls for a relative shear velocity (lower against upper, in +x) and a plate velocity (up), m/s.
   static void set_velocities(std::vector<Wall>& walls, MovingHalf moving, double shear_velocity, double plate_velocity);

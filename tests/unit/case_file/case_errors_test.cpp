@@ -171,7 +171,16 @@ TEST(CaseErrors, RulesBetweenKeys) {
   EXPECT_EQ(mistake("box", "wing = \"10 mm\""),
             "6:8: error: shear.displacement = 14 mm is longer than box.wing = 10 mm: grains would fall out");
   EXPECT_EQ(mistake("box", "gap = \"3.5 mm\""),
-            "6:7: error: box.gap = 3.5 mm lets the smallest grains (3.5 mm) through");
+            "6:7: error: box.gap = 3.5 mm lets grains out of the box: gravel of 3.5 mm and shape T5, whose thickest "
+            "pebble is 2.766 mm");
+  // A gap that a pebble gets into, but no grain through, is only warned about.
+  const std::vector<std::string> warnings = parse_case(with("box", "gap = \"2.7 mm\""), "case.toml").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("6:7: warning: box.gap = 2.7 mm lets parts of grains in, which may wedge: the smallest "
+                             "pebbles or balls are 1.238 mm thick"),
+            std::string::npos)
+      << warnings[0];
+  EXPECT_TRUE(parse_case(with("box", "gap = \"1.2 mm\""), "case.toml").warnings.empty());
   EXPECT_EQ(mistake("rubber.bond", "tensile_strength = \"1 MPa\""),
             "9:20: error: rubber.bond.tensile_strength = 1 MPa needs rubber.bond.form = \"incremental\"");
   EXPECT_EQ(mistake("rubber.bond", "hertz_contact = true\nspring_friction = 0.3"),

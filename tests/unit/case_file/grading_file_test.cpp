@@ -12,6 +12,7 @@
 
 #include "dem4grm/case_file/toml_scan.hpp"
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/specimen/grading.hpp"
 #include "support/run_program.hpp"
 
 namespace dem {

@@ -15,7 +15,7 @@ namespace {
 using namespace dem;
 using namespace dem::test;
 
-const Bounds k_room{{-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}};
+const std::array k_room{Bounds{{-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}}};
 
 /// A rubber grain, a T1 clump and a sphere, all apart, over a floor.
 Simulation three_bodies() {
@@ -31,9 +31,9 @@ Simulation three_bodies() {
   return s;
 }
 
-bool names(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
+bool names(const Trouble& trouble, const std::string& what) { return trouble.text.find(what) != std::string::npos; }
 
-TEST(Watchdog, IsSilentWhenAllIsWell) { EXPECT_EQ(find_trouble(three_bodies(), k_room, 0.5), ""); }
+TEST(Watchdog, IsSilentWhenAllIsWell) { EXPECT_EQ(find_trouble(three_bodies(), k_room, 0.5).kind, TroubleKind::none); }
 
 TEST(Watchdog, NamesWhatIsNoNumber) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
@@ -53,8 +53,10 @@ TEST(Watchdog, NamesTheOneThatLeft) {
   for (const Vec3& away : {Vec3{0.051, 0, 0}, Vec3{0, -0.051, 0}, Vec3{0, 0, 1e9}}) {
     Simulation s = three_bodies();
     s.balls.set_position(s.balls.pebble_index(2), away);
-    const std::string text = find_trouble(s, k_room, 0.5);
-    EXPECT_TRUE(names(text, "clump 1, pebble 0 left the box")) << text;
+    const Trouble found = find_trouble(s, k_room, 0.5);
+    EXPECT_TRUE(names(found, "clump 1, pebble 0 left the box")) << found.text;
+    EXPECT_EQ(found.kind, TroubleKind::outside);
+    EXPECT_EQ(norm(found.place - away), 0.0);
     EXPECT_EQ(count_lost_bodies(s, k_room), 1);
   }
   EXPECT_EQ(count_lost_bodies(three_bodies(), k_room), 0);
@@ -68,9 +70,9 @@ TEST(Watchdog, NamesTheDeepestOverlapOfTwoGrains) {
   Simulation s(scene);
   s.set_time_step(1e-9);
   s.step();
-  EXPECT_EQ(find_trouble(s, k_room, 0.45), "");
-  const std::string text = find_trouble(s, k_room, 0.3);
-  EXPECT_TRUE(names(text, "clump 0, pebble 0") && names(text, "clump 1, pebble 0") && names(text, "0.40")) << text;
+  EXPECT_EQ(find_trouble(s, k_room, 0.45).text, "");
+  const Trouble text = find_trouble(s, k_room, 0.3);
+  EXPECT_TRUE(names(text, "clump 0, pebble 0") && names(text, "clump 1, pebble 0") && names(text, "0.40")) << text.text;
   const OverlapReport report = worst_overlap(s);
   EXPECT_NEAR(report.largest, 0.4, 1e-4);
   EXPECT_EQ(report.caught, 0);
@@ -86,8 +88,8 @@ TEST(Watchdog, NamesTheWall) {
   Simulation s(scene);
   s.set_time_step(1e-9);
   s.step();
-  const std::string text = find_trouble(s, k_room, 0.3);
-  EXPECT_TRUE(names(text, "bottom plate") && names(text, "clump 0, pebble 0") && names(text, "0.40")) << text;
+  const Trouble text = find_trouble(s, k_room, 0.3);
+  EXPECT_TRUE(names(text, "bottom plate") && names(text, "clump 0, pebble 0") && names(text, "0.40")) << text.text;
 }
 
 TEST(Alignment, IsSixTenthsAtRandomAndOneWhenSquare) {

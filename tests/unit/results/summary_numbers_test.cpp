@@ -58,6 +58,7 @@ TEST(Summary, HasAllPromisedNames) {
                            "fabric_deviator_noise",
                            "largest_overlap_before_shear",
                            "caught_balls_before_shear",
+                           "split_height_mm",
                            "k0_x",
                            "k0_y",
                            "largest_contraction_mm",

@@ -107,6 +107,51 @@ TEST(ShearBoxGeometry, GapLiesHalfAndHalfAboutTheSplitPlane) {
   EXPECT_NEAR(box.walls()[7].corner.z, 0.0275, 1e-15);
 }
 
+TEST(ShearBoxGeometry, PartsAtAnyHeightAndKeepsWhatElseTheWallsHave) {
+  BoxSettings s;
+  s.gap = 0.002;
+  ShearBox box(s, 0.06);
+  box.walls()[ShearBox::k_top_plate].friction = 0.7;
+  EXPECT_NEAR(ShearBox::split_height(box.walls()), 0.0265, 1e-15);
+  ShearBox::part_at(box.walls(), s, 0.022);
+  EXPECT_NEAR(ShearBox::split_height(box.walls()), 0.022, 1e-15);
+  for (int w = 1; w <= 4; ++w) {
+    const Wall &lower = box.walls()[static_cast<std::size_t>(w)], &upper = box.walls()[static_cast<std::size_t>(w + 6)];
+    EXPECT_NEAR(lower.corner.z + std::max(dot(lower.u, {0, 0, lower.length_u}), dot(lower.v, {0, 0, lower.length_v})),
+                0.021, 1e-15);
+    EXPECT_NEAR(upper.corner.z, 0.023, 1e-15);
+    EXPECT_NEAR(upper.corner.z + std::max(dot(upper.u, {0, 0, upper.length_u}), dot(upper.v, {0, 0, upper.length_v})),
+                0.080, 1e-15);
+  }
+  EXPECT_NEAR(box.walls()[5].corner.z, 0.021, 1e-15);
+  EXPECT_NEAR(box.walls()[11].corner.z, 0.023, 1e-15);
+  EXPECT_EQ(box.walls()[ShearBox::k_top_plate].friction, 0.7);
+  EXPECT_EQ(box.walls()[ShearBox::k_top_plate].corner.z, 0.06);
+  EXPECT_EQ(box.walls()[1].name, "lower wall -x");
+}
+
+TEST(ShearBoxGeometry, RoomsFollowTheHalvesAndHoldTheGap) {
+  BoxSettings s;
+  s.gap = 0.002;
+  ShearBox box(s, 0.06);
+  for (std::size_t w = 0; w < 6; ++w) box.walls()[w].corner.x += 0.010;  // the lower half has moved by 10 mm
+  const auto is_held = [&](const Vec3& p) {
+    const auto [lower, upper] = ShearBox::rooms_of(box.walls());
+    return is_inside(p, lower) || is_inside(p, upper);
+  };
+  for (const Vec3& p : {Vec3{0.011, 0.05, 0.01}, Vec3{0.109, 0.05, 0.01}, Vec3{0.001, 0.05, 0.04},
+                        Vec3{0.099, 0.05, 0.059}, Vec3{0.001, 0.05, 0.0265}, Vec3{0.109, 0.05, 0.0265}}) {
+    EXPECT_TRUE(is_held(p)) << p.x << " " << p.z;
+  }
+  // Through a wall of its half, through the plates, out through the gap at either end and at the sides.
+  for (const Vec3& p :
+       {Vec3{0.009, 0.05, 0.01}, Vec3{0.111, 0.05, 0.01}, Vec3{-0.001, 0.05, 0.04}, Vec3{0.101, 0.05, 0.04},
+        Vec3{0.05, 0.05, 0.061}, Vec3{0.05, 0.05, -0.001}, Vec3{-0.001, 0.05, 0.0265}, Vec3{0.111, 0.05, 0.0265},
+        Vec3{0.05, -0.001, 0.0265}, Vec3{0.05, 0.101, 0.0265}}) {
+    EXPECT_FALSE(is_held(p)) << p.x << " " << p.y << " " << p.z;
+  }
+}
+
 TEST(ShearBoxMotion, OfEitherHalfOrBoth) {
   ShearBox box(BoxSettings{}, 0.06);
   const auto speeds = [&](MovingHalf moving) {
