@@ -55,6 +55,41 @@ TEST(SplitPlane, LiesAtHalfOfTheSpecimenWhenAskedFor) {
   EXPECT_EQ(half.lost_grains, 0);
 }
 
+TEST(RoughPlates, GripWithoutFrictionAndKeepTheBooks) {
+  DirectShearCase test = test::tiny_shear_case(0.3, 0.025, 0.024);
+  test.walls.friction = 0.0;
+  test.shear.displacement = 0.8e-3;
+  LabObserver silent;
+  const DirectShearResult smooth = run_direct_shear(test, silent);
+  test.box.plate_roughness = 2e-3;
+  test.box.plate_roughness_pitch = 4e-3;
+  const DirectShearResult rough = run_direct_shear(test, silent);
+  const double area = test.box.length * test.box.width;
+  double gripped = 0.0;
+  for (const ShearRow& row : rough.rows) {
+    double lower = 0.0;
+    for (std::size_t w = 0; w < ShearBox::k_top_plate; ++w) lower += row.wall_force[w].x;
+    EXPECT_NEAR(-lower / area, row.shear_stress, 1e-6 * row.normal_stress);
+    gripped = std::max(gripped, row.plate_shear_stress / row.normal_stress);
+  }
+  // A smooth plate without friction carries nothing; ribs do.
+  for (const ShearRow& row : smooth.rows) EXPECT_NEAR(row.plate_shear_stress, 0.0, 1e-6 * row.normal_stress);
+  EXPECT_GT(gripped, 0.05);
+  EXPECT_NEAR(rough.normal_stress_mean / 60e3, 1.0, 0.02);
+  EXPECT_LT(rough.half_force_imbalance_mean, 0.1);
+  EXPECT_EQ(rough.lost_grains, 0);
+  const EnergyReport &first = rough.rows.front().energy, &last = rough.rows.back().energy;
+  const double stored =
+      last.kinetic + last.contact_strain + last.bond_strain - first.kinetic - first.contact_strain - first.bond_strain;
+  const double lost = last.slip + last.dashpot + last.local_damping - first.slip - first.dashpot - first.local_damping;
+  EXPECT_NEAR((stored + lost) / (last.boundary_work - first.boundary_work), 1.0, 0.02);
+  // Stress of the contacts, ribs among them, against the force on the plate.
+  for (const MicroRow& row : rough.micro_rows) {
+    EXPECT_NEAR(row.numbers.plate_stress / 60e3, 1.0, 0.1);
+    EXPECT_NEAR(row.numbers.boundary_zz / row.numbers.plate_stress, 1.0, 0.15);
+  }
+}
+
 TEST(Gap, AGrainOnItsWayOutIsNamedWithTheGap) {
   DirectShearCase test = test::tiny_shear_case(0.0, 0.025, 0.024);
   test.specimen.clump_shapes = {"sphere"};

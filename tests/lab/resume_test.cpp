@@ -24,6 +24,7 @@ namespace {
 DirectShearCase tiny_case() {
   DirectShearCase test = test::tiny_shear_case(0.3, 0.020, 0.018);
   test.box.split_plane = SplitPlane::specimen;
+  test.box.plate_roughness = 1.5e-3;
   test.bond.form = BondForm::incremental;
   test.contact.hz_mode = 1;
   test.shear.displacement = 0.6e-3;

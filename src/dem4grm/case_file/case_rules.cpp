@@ -9,26 +9,15 @@
 
 #include <fmt/format.h>
 
+#include "dem4grm/case_file/box_rules.hpp"
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/laws/inertial_number.hpp"
-#include "dem4grm/specimen/grading.hpp"
-#include "dem4grm/specimen/slit_sizes.hpp"
 
 namespace dem {
 namespace {
 
-std::string length_text(double value) { return format_quantity(value, Dimension::length); }
 std::string stress_text(double value) { return format_quantity(value, Dimension::stress); }
 std::string speed_text(double value) { return format_quantity(value, Dimension::speed); }
-
-/// What the rules work on.
-struct Rules {
-  const GivenKeys& given;
-  CaseProblems& problems;
-};
-
-bool has_gravel(const SpecimenSettings& specimen) { return specimen.rubber_content < 1.0; }
-bool has_rubber(const SpecimenSettings& specimen) { return specimen.rubber_content > 0.0; }
 
 void check_materials(const SpecimenSettings& specimen, Rules& rules) {
   const auto& given = rules.given;
@@ -81,22 +70,6 @@ void check_shapes(const SpecimenSettings& specimen, Rules& rules) {
   }
 }
 
-/// The grains that the box must hold. Zero when there is none or when its grading is wrong.
-struct GrainSizes {
-  double largest = 0.0;
-};
-
-GrainSizes grain_sizes(const SpecimenSettings& specimen, const GivenKeys& given) {
-  GrainSizes sizes;
-  const auto take = [&](std::string_view key, const Grading& grading, bool is_present) {
-    if (!is_present || grading.empty() || !given.are_good({key, "specimen.rubber_content"})) return;
-    sizes.largest = std::max(sizes.largest, largest_grain(grading));
-  };
-  take("specimen.gravel_grading", specimen.gravel_grading, has_gravel(specimen));
-  take("specimen.rubber_grading", specimen.rubber_grading, has_rubber(specimen));
-  return sizes;
-}
-
 /// Between the frictions that give e_min and e_max; a search needs room for its trials.
 constexpr double k_least_friction_range = 0.01;
 
@@ -126,74 +99,6 @@ void check_preparation(const DirectShearCase& test, Rules& rules) {
       std::adjacent_find(specimen.load_steps.begin(), specimen.load_steps.end(), std::greater_equal<>()) !=
           specimen.load_steps.end()) {
     problems.error(given.place_of({"specimen.load_steps"}), "specimen.load_steps must rise from entry to entry");
-  }
-}
-
-/// Each side of the box against the largest grain. ASTM D3080 asks for a width of 10 and a height of 6 grains; the
-/// published box has 6.2 in height. Below 5 the walls decide the result, below 2 there is nothing to shear.
-void check_box_against_grains(const DirectShearCase& test, Rules& rules) {
-  const GrainSizes grains = grain_sizes(test.specimen, rules.given);
-  if (grains.largest == 0.0) return;
-  const auto check_side = [&](std::string_view key, double side, double usual) {
-    if (!rules.given.are_good({key})) return;
-    const Place place = rules.given.place_of({key, "specimen.gravel_grading", "specimen.rubber_grading"});
-    const double least = 2.0 * grains.largest;
-    if (side < least * (1.0 - 1e-9)) {
-      rules.problems.error(place, fmt::format("{} = {} is less than 2 of the largest grains ({}): at least {}", key,
-                                              length_text(side), length_text(grains.largest),
-                                              format_decimal(std::ceil(least * 1e4 - 1e-6) / 10.0) + " mm"));
-    } else if (side < usual * grains.largest * (1.0 - 1e-9)) {
-      rules.problems.warning(place, fmt::format("{} = {} is less than {} of the largest grains ({}), the least that "
-                                                "ASTM D3080 asks for{}",
-                                                key, length_text(side), usual, length_text(grains.largest),
-                                                side < 5.0 * grains.largest ? "; the walls decide the result" : ""));
-    }
-  };
-  check_side("box.length", test.box.length, 10.0);
-  check_side("box.width", test.box.width, 10.0);
-  check_side("box.height", test.box.height, 6.0);
-}
-
-void check_gap(const DirectShearCase& test, Rules& rules) {
-  const auto& [given, problems] = rules;
-  if (test.box.gap == 0.0 ||
-      !given.are_good({"box.gap", "specimen.rubber_content", "specimen.gravel_grading", "specimen.rubber_grading",
-                       "specimen.clump_shapes", "specimen.clump_templates"})) {
-    return;
-  }
-  const SlitSizes sizes = slit_sizes(test.specimen, test.rubber.density, test.rubber_solid_density);
-  const Place place = given.place_of({"box.gap"});
-  if (test.box.gap >= sizes.passes) {
-    problems.error(place,
-                   fmt::format("box.gap = {} lets grains out of the box: {}", length_text(test.box.gap), sizes.grain),
-                   fmt::format("a gap below {:.2f} mm keeps every grain in", std::floor(sizes.passes * 1e5) / 100.0));
-  } else if (test.box.gap >= sizes.enters) {
-    problems.warning(place,
-                     fmt::format("box.gap = {} lets parts of grains in, which may wedge: the smallest pebbles or "
-                                 "balls are {:.4g} mm thick",
-                                 length_text(test.box.gap), sizes.enters * 1e3));
-  }
-}
-
-void check_box(const DirectShearCase& test, Rules& rules) {
-  const auto& [given, problems] = rules;
-  const BoxSettings& box = test.box;
-  if (given.are_good({"box.upper_height", "box.height"}) && !(box.upper_height > box.height / 2)) {
-    problems.error(given.place_of({"box.upper_height", "box.height"}),
-                   fmt::format("box.upper_height = {} must be greater than half of box.height ({})",
-                               length_text(box.upper_height), length_text(box.height / 2)),
-                   "the loose fill stands higher than the specimen");
-  }
-  const double displacement = test.shear.displacement;
-  if (given.are_good({"shear.displacement", "box.wing"}) && displacement > box.wing) {
-    problems.error(given.place_of({"shear.displacement", "box.wing"}),
-                   fmt::format("shear.displacement = {} is longer than box.wing = {}: grains would fall out",
-                               length_text(displacement), length_text(box.wing)));
-  }
-  if (given.are_good({"shear.displacement", "box.length"}) && displacement > box.length / 2) {
-    problems.error(given.place_of({"shear.displacement", "box.length"}),
-                   fmt::format("shear.displacement = {} is more than half of box.length = {}",
-                               length_text(displacement), length_text(box.length)));
   }
 }
 
@@ -311,9 +216,7 @@ void check_rules(const DirectShearCase& test, const GivenKeys& given, CaseProble
   check_materials(test.specimen, rules);
   check_preparation(test, rules);
   check_shapes(test.specimen, rules);
-  check_box_against_grains(test, rules);
-  check_gap(test, rules);
-  check_box(test, rules);
+  check_box_rules(test, rules);
   check_recording(test, rules);
   check_shear(test, rules);
   check_bond(test.bond, rules);

@@ -280,6 +280,12 @@ Schema case_schema(DirectShearCase& c) {
   });
   add_bond(keys, c.bond);
   add_elasticity(keys, "walls", c.walls, "0.70", "80 GPa", "0.25");
+  keys.insert(keys.end(), {
+    {.section = "walls", .name = "plate_roughness", .slot = &c.box.plate_roughness, .dimension = k_length,
+     .range = {0, 0.1}, .help = "height of ribs across the shear direction on both plates; 0: smooth plates"},
+    {.section = "walls", .name = "plate_roughness_pitch", .slot = &c.box.plate_roughness_pitch, .dimension = k_length,
+     .range = {0, 1}, .help = "distance of the ribs; 0: twice their height, flanks at 45 degrees"},
+  });
   add_contact_and_integration(keys, c.contact, c.integration);
   add_servo_and_equilibrium(keys, c.servo, c.equilibrium);
   add_shear_and_recording(keys, c.shear, c.recording);

@@ -250,6 +250,16 @@ void prepare_partial_works(Simulation& s, std::size_t blocks) {
   s.scratch_dashpot.assign(blocks, 0.0);
 }
 
+void add_to_carriers(Simulation& s) {
+  for (std::size_t w = 0; w < s.walls.size(); ++w) {
+    if (s.walls[w].carrier < 0) continue;
+    WallReaction& all = s.reactions[static_cast<std::size_t>(s.walls[w].carrier)];
+    all.force += s.reactions[w].force;
+    all.stiffness += s.reactions[w].stiffness;
+    all.contacts += s.reactions[w].contacts;
+  }
+}
+
 void prepare_partial_reactions(Simulation& s, std::size_t n) { s.scratch_reactions.assign(n, WallReaction{}); }
 
 void Simulation::reset_velocities() {

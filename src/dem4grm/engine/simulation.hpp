@@ -210,6 +210,8 @@ void move_walls(Simulation& s);
 void prepare_partial_works(Simulation& s, std::size_t blocks);
 /// The same for the forces on walls in scratch_reactions.
 void prepare_partial_reactions(Simulation& s, std::size_t n);
+/// The reactions of walls that are parts of others, added to those.
+void add_to_carriers(Simulation& s);
 
 /// All contacts of two balls at once, for readers of forces: after it none waits.
 void evaluate_ball_contacts(Simulation& s);

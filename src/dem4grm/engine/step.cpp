@@ -42,6 +42,12 @@ void move_walls(Simulation& s) {
   double fastest_wall2 = 0.0;
   for (std::size_t w = 0; w < s.walls.size(); ++w) {
     Wall& wall = s.walls[w];
+    if (wall.carrier >= 0) {  // behind its carrier in the list, whose work holds that of its forces
+      wall.velocity = s.walls[static_cast<std::size_t>(wall.carrier)].velocity;
+      wall.corner += wall.velocity * s.dt;
+      s.last_wall_velocity[w] = wall.velocity;
+      continue;
+    }
     // Work of the force of this instant over half the step before and half the step after it.
     const Vec3 both_halves = wall.velocity + s.last_wall_velocity[w] * (s.last_dt / s.dt);
     s.ledger.boundary -= dot(s.reactions[w].force, both_halves) * (0.5 * s.dt);

@@ -115,6 +115,10 @@ SampleBox find_sample_box(std::span<const Wall> walls) {
     if (walls[w].name == "top plate") box.top_plate = static_cast<int>(w);
   }
   if (box.bottom_plate < 0 || box.top_plate < 0) return {};
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const bool is_bottom = walls[w].name.starts_with("bottom plate"), is_top = walls[w].name.starts_with("top plate");
+    box.plate_of_rib.push_back(is_bottom ? box.bottom_plate : is_top ? box.top_plate : static_cast<int>(w));
+  }
   const Wall& bottom = walls[static_cast<std::size_t>(box.bottom_plate)];
   box.area = bottom.length_u * bottom.length_v;
   box.height = walls[static_cast<std::size_t>(box.top_plate)].corner.z - bottom.corner.z;

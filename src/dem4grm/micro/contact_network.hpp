@@ -60,6 +60,11 @@ struct SampleBox {
   int bottom_plate = -1, top_plate = -1;  ///< rows of walls
   double area = 0.0;                      ///< m2, of the bottom plate
   double height = 0.0;                    ///< m, between the plates
+  std::vector<int> plate_of_rib{};        ///< [n_walls] row of the plate that a wall is a rib of, its own row otherwise
+  /// The plate that a wall belongs to, or the wall itself.
+  [[nodiscard]] int plate_of(int wall) const {
+    return plate_of_rib.empty() ? wall : plate_of_rib[static_cast<std::size_t>(wall)];
+  }
   [[nodiscard]] double volume() const { return area * height; }
 };
 
@@ -75,7 +80,7 @@ struct ContactNetwork {
 /// The network of the last evaluation of forces; normals and points from the present positions.
 ContactNetwork contact_network_of(const Simulation& s);
 
-/// The plates among the walls, by their names "bottom plate" and "top plate".
+/// The plates among the walls, by their names "bottom plate" and "top plate", and their ribs, whose names go on from there.
 SampleBox find_sample_box(std::span<const Wall> walls);
 
 /// One contact for each pair of bodies, in the order of their ids, i the smaller one.

@@ -25,7 +25,7 @@ Tensor3 boundary_stress(const ContactNetwork& network) {
 double plate_stress(const ContactNetwork& network) {
   double force = 0.0;
   for (const WallContact& c : network.wall_contacts) {
-    if (c.wall == network.box.top_plate) force += force_on_second(c).z;
+    if (network.box.plate_of(c.wall) == network.box.top_plate) force += force_on_second(c).z;
   }
   return force / network.box.area;
 }

@@ -122,7 +122,8 @@ Percolation percolation_of(const ContactNetwork& network, std::span<const Contac
     out.largest_cluster = std::max(out.largest_cluster, bodies / static_cast<double>(n));
   }
   for (const WallContact& c : plate_links(network, options.level)) {
-    const bool is_bottom = c.wall == network.box.bottom_plate, is_top = c.wall == network.box.top_plate;
+    const int plate = network.box.plate_of(c.wall);
+    const bool is_bottom = plate == network.box.bottom_plate, is_top = plate == network.box.top_plate;
     if ((is_bottom || is_top) && strength(c, measure) > threshold) {
       groups.join(static_cast<std::size_t>(c.body), is_bottom ? bottom : top);
     }

@@ -145,6 +145,7 @@ void write_bonds(const Handle& frame, const Simulation& s) {
 void write_walls(const Handle& frame, const Simulation& s) {
   std::vector<std::string> names;
   std::vector<double> corner, u, v, lengths, force, velocity, friction;
+  std::vector<std::int32_t> carrier;
   for (std::size_t w = 0; w < s.walls.size(); ++w) {
     const Wall& wall = s.walls[w];
     names.push_back(wall.name);
@@ -155,6 +156,7 @@ void write_walls(const Handle& frame, const Simulation& s) {
     append(force, s.reactions[w].force);
     append(velocity, wall.velocity);
     friction.push_back(wall.friction);
+    carrier.push_back(wall.carrier);
   }
   const Handle group = hdf5::create_group(frame, "walls");
   hdf5::write_dataset(group, {"name", "1", "name"}, names);
@@ -165,6 +167,9 @@ void write_walls(const Handle& frame, const Simulation& s) {
   hdf5::write_dataset(group, {"force", "N", "of the grains on the wall"}, force, 3);
   hdf5::write_dataset(group, {"velocity", "m/s", "velocity"}, velocity, 3);
   hdf5::write_dataset(group, {"friction", "1", "friction coefficient"}, friction);
+  hdf5::write_dataset(group,
+                      {"carrier", "1", "row of the plate that a rib belongs to, whose force holds that of the rib; -1"},
+                      carrier);
 }
 
 }  // namespace

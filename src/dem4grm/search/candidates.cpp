@@ -245,7 +245,7 @@ std::vector<PairKey> find_wall_pairs(const SearchBalls& balls, std::span<const W
       const Vec3 centre{balls.x[i], balls.y[i], balls.z[i]};
       const double reach = balls.radius[i] + skin;
       for (std::size_t w = 0; w < walls.size(); ++w) {
-        if (comes_within(walls[w], centre, reach)) {
+        if (walls[w].is_solid && comes_within(walls[w], centre, reach)) {
           parts[block].push_back(pair_key(static_cast<int>(i), static_cast<int>(w)));
         }
       }

@@ -199,7 +199,9 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
                     fill.height * 1e3, box.upper_height * 1e3));
   }
   Scene scene = clump_scene(grains, materials);
-  scene.wall_list = ShearBox(box, fill.height).walls();
+  BoxSettings smooth = box;
+  smooth.plate_roughness = 0.0;
+  scene.wall_list = ShearBox(smooth, fill.height).walls();
   const double scale = place_small(scene, {box.length, box.width, fill.height}, settings);
   const std::vector<int> drawn = sort_along_curve(scene.clumps, [](const PlacedClump& c) { return c.pose.position; });
   Simulation s(scene);

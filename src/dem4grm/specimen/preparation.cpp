@@ -263,11 +263,7 @@ class Preparation {
     out_.simulation->set_friction(preparation_friction(friction));
   }
 
-  void set_plate_friction(double friction) {
-    for (const int plate : {ShearBox::k_bottom_plate, ShearBox::k_top_plate}) {
-      out_.simulation->walls[static_cast<std::size_t>(plate)].friction = friction;
-    }
-  }
+  void set_plate_friction(double friction) { ShearBox::set_plate_friction(out_.simulation->walls, friction); }
 
   void begin_final_friction() {
     out_.report.void_ratio_prepared = rest_.void_ratio;

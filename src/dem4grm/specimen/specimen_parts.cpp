@@ -53,7 +53,11 @@ Scene scene_of(const SpecimenOrder& order, const GrainList& grains, const Fill& 
   for (std::size_t k = 0; k < grains.gravel.size(); ++k) {
     scene.clumps.push_back({grains.gravel[k].shape, grains.gravel[k].sieve_size, fill.gravel[k], k_gravel});
   }
-  scene.wall_list = ShearBox(order.box, fill.height).walls();
+  // Fills are made between smooth plates; the crests of rough ones stand where those were.
+  const double reach = ShearBox::reach_beyond_plates(order.box);
+  for (PlacedClump& c : scene.clumps) c.pose.position.z += reach;
+  for (Pose& pose : scene.grains) pose.position.z += reach;
+  scene.wall_list = ShearBox(order.box, fill.height + 2.0 * reach).walls();
   return scene;
 }
 

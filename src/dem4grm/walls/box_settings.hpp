@@ -17,6 +17,8 @@ struct BoxSettings {
   double gap = 0.0;             ///< m, between the halves
   double wing = 0.020;          ///< m, length of the wings
   SplitPlane split_plane = SplitPlane::nominal;
+  double plate_roughness = 0.0;        ///< m, height of the ribs of both plates; 0: smooth
+  double plate_roughness_pitch = 0.0;  ///< m, from crest to crest; 0: twice the height
 };
 
 struct ServoSettings {

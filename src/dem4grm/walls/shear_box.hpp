@@ -27,6 +27,11 @@ namespace dem {
 enum class BoxHalf : unsigned char { lower, upper };
 
 /// The walls of a shear box and how they move. Wall indices are fixed: see the constants.
+///
+/// Rough plates have ribs across the shear direction, of triangular section: two flanks for each of round(length / pitch) ribs,
+/// from valley to crest and down again. The plate itself is then the mean plane of its ribs, half a rib's height from crests and
+/// valleys; grains do not see it, but it carries the ribs, whose forces count as its own. So the height between the plates times the
+/// area is the volume between them, rough or smooth. Ribs stand behind the twelve walls, those of the bottom plate first.
 class ShearBox {
  public:
   static constexpr int k_bottom_plate = 0;
@@ -49,6 +54,12 @@ class ShearBox {
   /// Where the centre of a ball may be: the lower half and the upper half, each with the gap between them, as they stand.
   /// A centre that lies in neither has passed a wall or is on its way out through the gap.
   static std::array<Bounds, 2> rooms_of(const std::vector<Wall>& walls);
+
+  /// Half the height of the ribs: how far grains reach beyond a plate, m.
+  static double reach_beyond_plates(const BoxSettings& settings) { return 0.5 * settings.plate_roughness; }
+
+  /// Friction of both plates with all their ribs.
+  static void set_plate_friction(std::vector<Wall>& walls, double friction);
 
   /// Height of the plane at which the halves part, in the middle of the gap, m.
   static double split_height(const std::vector<Wall>& walls);

@@ -19,7 +19,10 @@ struct Wall {
   Vec3 normal{0, 0, 1};                   ///< u x v
   double length_u = 0.0, length_v = 0.0;  ///< m
   double friction = 0.0;
-  Vec3 velocity;  ///< m/s
+  Vec3 velocity;         ///< m/s
+  bool is_solid = true;  ///< false: grains do not see it, it only carries others
+  int carrier = -1;  ///< index of the wall that this one is a part of, a smaller one: it moves with it and its forces
+                     ///< count there; -1: none
 };
 
 /// What a ball centre sees of a rectangle.

@@ -53,6 +53,13 @@ std::string with(std::string_view section, std::string_view lines) {
   return text;
 }
 
+/// The only headline of a case with these lines under [walls], without its place.
+std::string with_walls(const std::string& lines) {
+  const std::vector<std::string> found = headlines(refusal(with("shear", "") + "[walls]\n" + lines + "\n"));
+  EXPECT_EQ(found.size(), 1U);
+  return found.empty() ? "" : found[0].substr(found[0].find("error: "));
+}
+
 /// The only headline of a case with one mistake, without "case.toml:".
 std::string mistake(std::string_view section, std::string_view lines) {
   const std::string message = refusal(with(section, lines));
@@ -181,6 +188,16 @@ TEST(CaseErrors, RulesBetweenKeys) {
             std::string::npos)
       << warnings[0];
   EXPECT_TRUE(parse_case(with("box", "gap = \"1.2 mm\""), "case.toml").warnings.empty());
+  EXPECT_EQ(with_walls("plate_roughness = \"1 mm\""),
+            "error: ribs 2 mm apart are finer than a fourth of the largest grains (8.5 mm): at least 2.13 mm");
+  EXPECT_EQ(with_walls("plate_roughness = \"15 mm\"\nplate_roughness_pitch = \"40 mm\""),
+            "error: walls.plate_roughness = 15 mm is more than a fourth of box.height = 53 mm");
+  EXPECT_EQ(with_walls("plate_roughness = \"2 mm\"\nplate_roughness_pitch = \"60 mm\""),
+            "error: ribs 60 mm apart do not fit a plate of 100 mm: at least two");
+  EXPECT_NE(parse_case(with("shear", "") + "[walls]\nplate_roughness_pitch = \"4 mm\"\n", "case.toml")
+                .warnings.at(0)
+                .find("has no effect without walls.plate_roughness"),
+            std::string::npos);
   EXPECT_EQ(mistake("rubber.bond", "tensile_strength = \"1 MPa\""),
             "9:20: error: rubber.bond.tensile_strength = 1 MPa needs rubber.bond.form = \"incremental\"");
   EXPECT_EQ(mistake("rubber.bond", "hertz_contact = true\nspring_friction = 0.3"),

@@ -200,6 +200,7 @@ void evaluate(Simulation& s) {
     s.ledger.contact_slip += s.scratch_slip[block];
     s.ledger.contact_dashpot += s.scratch_dashpot[block];
   }
+  add_to_carriers(s);
 }
 
 }  // namespace
