@@ -82,6 +82,14 @@ class KilledRun : public test::CommandLine {
     EXPECT_GT(expected.numbers.size(), 100U);
     EXPECT_TRUE(got.numbers == expected.numbers) << "datasets of results.h5";
     EXPECT_FALSE(std::filesystem::exists(folder_ / folder / "checkpoint.h5"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / folder / "checkpoint.previous.h5"));
+  }
+  /// Stops a run after it stored its third state; it kept a checkpoint at every chance.
+  void stop_in_shear(const std::string& folder) const {
+    volatile std::sig_atomic_t stop = 0;
+    FrameListener listener;
+    listener.act = [&](int number) { stop = number > 1 ? 1 : 0; };
+    EXPECT_THROW(run_here(folder, {&listener, &stop, 0.0}), StoppedOnRequest);
   }
 
   /// Five states: at 0, 0.25, ... 1 mm.
@@ -133,6 +141,60 @@ TEST_F(KilledRun, IntervalOfARunThatGoesOnBeginsAnew) {
   const int before = checkpoints("out");
   run_here("out", {nullptr, nullptr, k_never});
   EXPECT_EQ(checkpoints("out"), before);
+}
+
+/// One bit in the middle of a file.
+void flip_a_bit(const std::filesystem::path& path) {
+  std::string bytes = read_all(path);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  test::write_all(path, bytes);
+}
+
+TEST_F(KilledRun, ADamagedCheckpointCostsOneIntervalAndIsTold) {
+  run_here("straight", {nullptr, nullptr, k_never});
+  stop_in_shear("out");
+  flip_a_bit(folder_ / "out/checkpoint.h5");
+  run_here("out", {nullptr, nullptr, k_never});
+  expect_same_results("out", "straight");
+  const JsonObject summary = json("out/summary.json");
+  const auto& warnings = std::get<JsonList>(find_field(summary, "warnings")->data);
+  const bool is_told = std::any_of(warnings.begin(), warnings.end(), [](const JsonValue& w) {
+    const std::string& text = std::get<std::string>(w.data);
+    return text.find("checkpoint.h5: is damaged") != std::string::npos &&
+           text.find("goes on from the one before it") != std::string::npos;
+  });
+  EXPECT_TRUE(is_told);
+}
+
+TEST_F(KilledRun, BothCheckpointsDamagedOrNoStatesIsToldWithTheWayOut) {
+  stop_in_shear("out");
+  std::filesystem::copy(folder_ / "out", folder_ / "no_states");
+  const auto refusal = [&](const std::string& folder) -> std::string {
+    try {
+      run_here(folder, {nullptr, nullptr, k_never});
+    } catch (const IoError& e) {
+      return e.what();
+    }
+    return "went on";
+  };
+  for (const char* file : {"out/checkpoint.h5", "out/checkpoint.previous.h5"}) flip_a_bit(folder_ / file);
+  const std::string damaged = refusal("out");
+  for (const char* part : {"checkpoint.h5: is damaged", "checkpoint.previous.h5: is damaged",
+                           "remove checkpoint.h5 and checkpoint.previous.h5 to start the run anew"}) {
+    EXPECT_NE(damaged.find(part), std::string::npos) << damaged;
+  }
+  std::filesystem::remove(folder_ / "no_states/results.h5");
+  const std::string without = refusal("no_states");
+  for (const char* part : {"results.h5", "put the file back, or remove checkpoint.h5 and checkpoint.previous.h5"}) {
+    EXPECT_NE(without.find(part), std::string::npos) << without;
+  }
+  // The way out is one.
+  for (const char* file : {"no_states/checkpoint.h5", "no_states/checkpoint.previous.h5"}) {
+    std::filesystem::remove(folder_ / file);
+  }
+  run_here("straight", {nullptr, nullptr, k_never});
+  run_here("no_states", {nullptr, nullptr, k_never});
+  expect_same_results("no_states", "straight");
 }
 
 /// What a kill leaves: everything but the lock, with the checkpoint of this or of an earlier moment.

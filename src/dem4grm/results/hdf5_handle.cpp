@@ -127,10 +127,12 @@ void Handle::close(const std::string& what) {
   if (id_ >= 0) check(close_(std::exchange(id_, -1)), what);
 }
 
-Handle create_file(const std::filesystem::path& path) {
+Handle create_file(const std::filesystem::path& path, std::size_t free_bytes) {
   prepare_library();
   const Handle list = file_properties();
-  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, list.id()), H5Fclose,
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "HDF5 properties cannot be made");
+  check(H5Pset_userblock(creation.id(), free_bytes), "HDF5 user block");
+  return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), list.id()), H5Fclose,
           fmt::format("{}: cannot be written", path.string())};
 }
 

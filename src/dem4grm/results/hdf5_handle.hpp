@@ -43,7 +43,8 @@ class Handle {
 enum class Access { read, write };
 
 /// A new, empty file; an old one of that name is replaced.
-Handle create_file(const std::filesystem::path& path);
+/// free_bytes at its beginning that HDF5 leaves alone: 0, or a power of 2 from 512 on.
+Handle create_file(const std::filesystem::path& path, std::size_t free_bytes = 0);
 Handle open_file(const std::filesystem::path& path, Access access);
 
 Handle create_group(const Handle& parent, const std::string& name);

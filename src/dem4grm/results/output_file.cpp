@@ -34,6 +34,17 @@ bool sync_descriptor(int descriptor) {
   return ::fsync(descriptor) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
+/// Brings a file or folder to the disk; false with errno set when it cannot.
+bool sync_path(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool is_synced = sync_descriptor(descriptor);
+  const int reason = errno;
+  ::close(descriptor);
+  errno = reason;
+  return is_synced;
+}
+
 /// Writes text and closes; on failure removes the file and throws.
 void fill_and_close(int descriptor, const std::filesystem::path& path, std::string_view text) {
   bool is_good = write_all(descriptor, text) && sync_descriptor(descriptor);
@@ -72,17 +83,24 @@ void replace_file(const std::filesystem::path& path, std::string_view text) {
   rename_draft(draft, path);
 }
 
-void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path) {
-  const int descriptor = ::open(draft.c_str(), O_RDONLY | O_CLOEXEC);
-  const bool is_synced = descriptor >= 0 && sync_descriptor(descriptor);
-  const int reason = errno;
-  if (descriptor >= 0) ::close(descriptor);
-  if (!is_synced) {
+void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path,
+                  const std::filesystem::path& older) {
+  if (!sync_path(draft)) {
+    const int reason = errno;
     ::unlink(draft.c_str());
     errno = reason;
     throw_io_error(path, "cannot be written");
   }
+  // Between the two renames the file has its older name only: whoever reads looks for both.
+  if (!older.empty() && ::rename(path.c_str(), older.c_str()) != 0 && errno != ENOENT) {
+    const int reason = errno;
+    ::unlink(draft.c_str());
+    errno = reason;
+    throw_io_error(path, "cannot be renamed");
+  }
   rename_draft(draft, path);
+  const std::filesystem::path folder = path.parent_path();
+  if (!sync_path(folder.empty() ? "." : folder)) throw_io_error(path, "cannot be brought to the disk");
 }
 
 void create_file(const std::filesystem::path& path, std::string_view text) {

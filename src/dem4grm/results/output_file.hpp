@@ -15,9 +15,10 @@ namespace dem {
 /// text or the new one. Throws IoError and leaves the old file.
 void replace_file(const std::filesystem::path& path, std::string_view text);
 
-/// Brings a draft that was written beside `path` to the disk and gives it that name. Throws IoError, leaves the old file
-/// and removes the draft.
-void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path);
+/// Brings a draft that was written beside `path` to the disk and gives it that name, then the folder to the disk. With
+/// `older` the file that has the name now gets that one first. Throws IoError, leaves the old file and removes the draft.
+void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path,
+                  const std::filesystem::path& older = {});
 
 /// Makes a new file; throws IoError, or Error with ExitCode::usage when it is there already.
 void create_file(const std::filesystem::path& path, std::string_view text);

@@ -15,10 +15,18 @@ namespace dem {
 namespace {
 
 /// What a run writes anew; the log is kept.
-constexpr std::array k_results_of_run{file_name::k_summary,    file_name::k_status,           file_name::k_shear,
-                                      file_name::k_grain,      file_name::k_results,          file_name::k_specimen,
-                                      file_name::k_checkpoint, file_name::k_specimen_summary, file_name::k_micro,
-                                      file_name::k_walls,      file_name::k_profiles};
+constexpr std::array k_results_of_run{file_name::k_summary,
+                                      file_name::k_status,
+                                      file_name::k_shear,
+                                      file_name::k_grain,
+                                      file_name::k_results,
+                                      file_name::k_specimen,
+                                      file_name::k_checkpoint,
+                                      file_name::k_specimen_summary,
+                                      file_name::k_micro,
+                                      file_name::k_walls,
+                                      file_name::k_previous_checkpoint,
+                                      file_name::k_profiles};
 
 std::optional<std::string> content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -85,7 +93,8 @@ OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded,
   found_ = look_into(path_, loaded);
   if (found_ == FolderContent::other_case) throw_other_case(path_);
   if (found_ == FolderContent::complete) return;
-  has_checkpoint_ = found_ == FolderContent::unfinished && is_there(file(file_name::k_checkpoint));
+  has_checkpoint_ = found_ == FolderContent::unfinished &&
+                    (is_there(file(file_name::k_checkpoint)) || is_there(file(file_name::k_previous_checkpoint)));
   if (has_checkpoint_) return;
   for (const char* name : k_results_of_run) {
     std::error_code error;

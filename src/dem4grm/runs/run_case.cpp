@@ -77,12 +77,21 @@ RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   const OutputFolder folder(settings.folder, loaded, settings.job);
   if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
   std::optional<StoredCheckpoint> checkpoint;
-  if (folder.has_checkpoint()) checkpoint = read_checkpoint(folder.file(file_name::k_checkpoint));
+  std::string newer_is_damaged;
+  if (folder.has_checkpoint()) {
+    std::optional<NewestCheckpoint> newest =
+        read_newest_checkpoint(folder.file(file_name::k_checkpoint), folder.file(file_name::k_previous_checkpoint));
+    if (newest) {
+      checkpoint = std::move(newest->stored);
+      newer_is_damaged = std::move(newest->note);
+    }
+  }
   // A named specimen saves what is left of a preparation; shear that has begun goes on.
   if (start && checkpoint && !checkpoint->state.has_group("shear")) checkpoint.reset();
   StateArchive* from = checkpoint ? &checkpoint->state : start ? &start->state : nullptr;
   TestWriter writer(folder, loaded, settings.threads, settings.links, checkpoint ? checkpoint->facts.wall_time : 0.0);
   if (!folder.lock_note().empty()) writer.note(folder.lock_note());
+  if (!newer_is_damaged.empty()) writer.warning(newer_is_damaged);
   const bool starts_from_specimen = start && !checkpoint;
   if (starts_from_specimen) writer.note(note_about(*start, settings.specimen));
   if (start && checkpoint) writer.note("shear has begun already; the specimen that was named is not used");

@@ -40,7 +40,7 @@ constexpr double k_bytes_per_ball = 46.0, k_bytes_per_bond = 27.0, k_bytes_per_c
 // by row, micro.csv by row, profiles.csv by state.
 constexpr double k_bytes_of_tables = 450e3, k_bytes_per_row = 1090.0, k_bytes_per_micro_row = 3.9e3,
                  k_bytes_of_profile = 3.2e3;
-constexpr double k_checkpoint_bytes_per_ball = 200.0;
+constexpr double k_checkpoint_bytes_per_ball = 2.0 * 200.0;  // two of them
 
 /// Mean time of a step over so many seconds, on so many threads; s.
 double time_of_step(Simulation& s, double seconds, int threads) {

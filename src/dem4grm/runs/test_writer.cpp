@@ -99,7 +99,8 @@ void TestWriter::checkpoint(const StateArchive& state) {
   const bool stops = must_stop();  // asked once: a signal may come while the file is written
   if (stops) status_.set_state(RunState::stopping, "on request");
   const double begin = seconds();
-  write_checkpoint(folder_.file(file_name::k_checkpoint), state, {loaded_.resolved_toml, begin, {}});
+  write_checkpoint(folder_.file(file_name::k_checkpoint), state, {loaded_.resolved_toml, begin, {}},
+                   folder_.file(file_name::k_previous_checkpoint));
   last_checkpoint_ = seconds();
   log_.info(fmt::format("checkpoint, written in {:.2f} s", last_checkpoint_ - begin));
   if (stops) {
@@ -108,7 +109,14 @@ void TestWriter::checkpoint(const StateArchive& state) {
 }
 
 void TestWriter::resumed(const ResumedRun& past) {
-  results_.emplace(folder_.file(file_name::k_results), origin_of(loaded_), past.frames);
+  try {
+    results_.emplace(folder_.file(file_name::k_results), origin_of(loaded_), past.frames);
+  } catch (const IoError& e) {
+    throw IoError(
+        fmt::format("{}. It held the {} states of the run so far, which the checkpoint does not; put the file back, or "
+                    "remove {} and {} to start the run anew",
+                    e.what(), past.frames.size(), file_name::k_checkpoint, file_name::k_previous_checkpoint));
+  }
   frames_.assign(past.frames.begin(), past.frames.end());
   start_energy_.kinetic = past.start_energy.kinetic;
   start_energy_.contact_strain = past.start_energy.contact_strain;
@@ -224,7 +232,9 @@ void TestWriter::write_summary(const JsonObject& summary) {
   log_.info(fmt::format("finished after {:.1f} s, {} rows, state hash {}", number_in(summary, "wall_time_s"),
                         table_->rows(), text_in(summary, "state_hash")));
   status_.set_state(RunState::finished);
-  std::filesystem::remove(folder_.file(file_name::k_checkpoint), ignored);
+  for (const char* name : {file_name::k_checkpoint, file_name::k_previous_checkpoint}) {
+    std::filesystem::remove(folder_.file(name), ignored);
+  }
 }
 
 JsonObject TestWriter::finish(const DirectShearResult& result) {
