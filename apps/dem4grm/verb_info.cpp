@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/results/results_check.hpp"
 #include "dem4grm/results/results_file.hpp"
 #include "dem4grm/results/stored_grains.hpp"
 #include "dem4grm/results/summary.hpp"
@@ -45,6 +46,11 @@ void compare(const std::filesystem::path& folder, const JsonObject& summary, con
                             file_name::k_results, found, file_name::k_summary, expected));
 }
 
+/// Throws IoError when the file is damaged.
+std::string integrity_line(const std::filesystem::path& path) {
+  return fmt::format("  {}: {}\n", path.filename().string(), verdict_of(path, check_results(path)));
+}
+
 void show_folder(const std::filesystem::path& folder) {
   const std::filesystem::path status_path = folder / file_name::k_status;
   std::error_code ignored;
@@ -68,9 +74,12 @@ void show_folder(const std::filesystem::path& folder) {
     const StoredResults stored = read_outline(results);
     compare(folder, summary, stored);
     text += summary_lines(summary) + homogeneity_lines(summary) + outline_text(results, stored) +
-            "  whole: the last state is that of the summary\n";
+            "  the last state is that of the summary\n";
   } else if (std::filesystem::exists(results, ignored)) {
     text += outline_text(results, read_outline(results));
+  }
+  for (const std::filesystem::path& file : {results, folder / file_name::k_specimen}) {
+    if (std::filesystem::exists(file, ignored)) text += integrity_line(file);
   }
   print_result(text);
 }
@@ -85,7 +94,7 @@ void show(const InfoOptions& options) {
     const bool is_before_shear =
         stored.test == "direct_shear" && !stored.frames.empty() && stored.frames.front().displacement == 0.0;
     print_result(
-        outline_text(path, stored) +
+        outline_text(path, stored) + integrity_line(path) +
         (is_before_shear ? homogeneity_lines(homogeneity_fields(homogeneity_of(read_stored_grains(path)))) : ""));
   }
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -81,13 +80,15 @@ void write_attribute(const Handle& object, const std::string& name, hid_t file_t
 Handle dataset_properties(const std::vector<hsize_t>& shape, std::size_t bytes, const std::string& what) {
   Handle list(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
   check(H5Pset_obj_track_times(list.id(), false), what);
-  // Small and empty data gain nothing from compression.
-  if (bytes < 256) return list;
+  if (bytes == 0) return list;
   std::vector<hsize_t> chunk = shape;
   chunk[0] = std::min(chunk[0], k_chunk_rows);
   check(H5Pset_chunk(list.id(), static_cast<int>(chunk.size()), chunk.data()), what);
-  check(H5Pset_shuffle(list.id()), what);
-  check(H5Pset_deflate(list.id(), k_compression), what);
+  if (bytes >= 256) {  // small data gain nothing from compression
+    check(H5Pset_shuffle(list.id()), what);
+    check(H5Pset_deflate(list.id(), k_compression), what);
+  }
+  check(H5Pset_fletcher32(list.id()), what);  // of what stands in the file
   return list;
 }
 
@@ -244,11 +245,26 @@ Handle open_dataset(const Handle& parent, const std::string& name) {
   return {H5Dopen2(parent.id(), name.c_str(), H5P_DEFAULT), H5Dclose, fmt::format("dataset {} cannot be read", name)};
 }
 
+/// Number of values of a dataset. Throws IoError when a damaged shape asks for more than the bytes in the file can hold,
+/// before memory is taken for it; deflate shrinks data to a 1032nd at most.
+std::size_t count_of(const Handle& dataset, const Handle& parent, const std::string& name, std::size_t value_bytes) {
+  constexpr double k_most_over_stored = 1100.0;
+  double most = 4096.0 + k_most_over_stored * static_cast<double>(H5Dget_storage_size(dataset.id()));
+  std::size_t count = 1;
+  for (const std::size_t length : dataset_shape(parent, name)) {
+    most /= std::max(1.0, static_cast<double>(length));
+    count *= length;
+  }
+  if (most < static_cast<double>(value_bytes)) {
+    throw IoError(fmt::format("dataset {} cannot be read: its shape is larger than its content", name));
+  }
+  return count;
+}
+
 template <class Value>
 std::vector<Value> read_values(const Handle& parent, const std::string& name, hid_t memory_type) {
-  const std::vector<std::size_t> shape = dataset_shape(parent, name);
-  std::vector<Value> values(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
   const Handle dataset = open_dataset(parent, name);
+  std::vector<Value> values(count_of(dataset, parent, name, 1));
   if (!values.empty()) {
     check(H5Dread(dataset.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
           fmt::format("dataset {} cannot be read", name));
@@ -278,7 +294,7 @@ std::vector<std::string> read_texts(const Handle& parent, const std::string& nam
   const std::vector<std::size_t> shape = dataset_shape(parent, name);
   if (shape.size() != 1) throw IoError(what);
   const std::size_t width = H5Tget_size(type.id());
-  std::string rows(shape[0] * width, '\0');
+  std::string rows(count_of(dataset, parent, name, width) * width, '\0');
   if (!rows.empty()) check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, rows.data()), what);
   std::vector<std::string> texts;
   for (std::size_t row = 0; row < shape[0]; ++row) {
@@ -305,6 +321,32 @@ DatasetKind dataset_kind(const Handle& parent, const std::string& name) {
   if (kind == H5T_INTEGER && bytes == 1) return DatasetKind::byte;
   if (kind == H5T_INTEGER && bytes == sizeof(std::int64_t)) return DatasetKind::whole;
   throw IoError(what + ": it holds another kind of values");
+}
+
+bool is_group(const Handle& parent, const std::string& name) {
+  const Handle object(H5Oopen(parent.id(), name.c_str(), H5P_DEFAULT), H5Oclose,
+                      fmt::format("{} cannot be opened", name));
+  return H5Iget_type(object.id()) == H5I_GROUP;
+}
+
+bool read_through(const Handle& parent, const std::string& name) {
+  const std::string what = fmt::format("dataset {} cannot be read", name);
+  const Handle dataset = open_dataset(parent, name);
+  const Handle type(H5Dget_type(dataset.id()), H5Tclose, what);
+  const std::size_t width = H5Tget_size(type.id()), values = count_of(dataset, parent, name, width);
+  if (values == 0) return true;
+  std::vector<char> bytes(values * width);
+  check(H5Dread(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()), what);
+  const Handle list(H5Dget_create_plist(dataset.id()), H5Pclose, what);
+  for (int k = 0; k < H5Pget_nfilters(list.id()); ++k) {
+    unsigned flags = 0, config = 0;
+    std::size_t parameters = 0;
+    if (H5Pget_filter2(list.id(), static_cast<unsigned>(k), &flags, &parameters, nullptr, 0, nullptr, &config) ==
+        H5Z_FILTER_FLETCHER32) {
+      return true;
+    }
+  }
+  return false;
 }
 
 void copy_group(const Handle& from, const std::string& name, const Handle& to) {

@@ -90,6 +90,12 @@ std::string read_text(const Handle& parent, const std::string& name);
 enum class DatasetKind { real, whole, byte };
 DatasetKind dataset_kind(const Handle& parent, const std::string& name);
 
+/// True for a group, false for a dataset.
+bool is_group(const Handle& parent, const std::string& name);
+/// Reads a dataset to its end, so that the library compares its checksums; true when it has any. Throws IoError when they do
+/// not fit or a part cannot be read.
+bool read_through(const Handle& parent, const std::string& name);
+
 /// Copies a group with all that is in it to another file.
 void copy_group(const Handle& from, const std::string& name, const Handle& to);
 

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A file of results with bits flipped anywhere: what is damaged is named, what is whole too.
+#include "dem4grm/results/results_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/random.hpp"
+#include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/results/results_file.hpp"
+#include "support/mixture_scene.hpp"
+#include "support/run_program.hpp"
+
+namespace dem {
+namespace {
+
+class ResultsIntegrity : public ::testing::Test {
+ protected:
+  ResultsIntegrity() {
+    test::MixtureOptions few;
+    few.cells = {3, 3, 2};
+    const Simulation s = test::run_mixture(few, 300);
+    ResultsFile file(path_, {"direct_shear", "small", "text", "toml"});
+    for (const int number : {0, 1, 2}) file.add_frame(s, {number, 1e-3 * number, s.state_hash()});
+    bytes_ = test::read_all(path_);
+  }
+
+  /// The numbers of state 1 as they stand in the file.
+  [[nodiscard]] std::vector<double> numbers_of(const std::filesystem::path& path) const {
+    const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+    const hdf5::Handle frame = hdf5::open_group(hdf5::open_group(file, "frames"), "0001");
+    std::vector<double> all = hdf5::read_dataset(hdf5::open_group(frame, "balls"), "position");
+    for (const double v : hdf5::read_dataset(hdf5::open_group(frame, "contacts"), "shear_force")) all.push_back(v);
+    return all;
+  }
+
+  test::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "results.h5";
+  std::string bytes_;
+};
+
+TEST_F(ResultsIntegrity, OfAFreshFileIsWhole) {
+  const ResultsCheck check = check_results(path_);
+  EXPECT_GT(check.datasets, 100);
+  EXPECT_EQ(check.without_checksum, 0);
+  EXPECT_TRUE(check.damaged.empty());
+  EXPECT_EQ(check.whole_states, (std::vector<std::string>{"0000", "0001", "0002"}));
+  EXPECT_NE(verdict_of(path_, check).find("fit their checksums"), std::string::npos);
+  EXPECT_THROW(check_results(folder_ / "absent.h5"), MissingFileError);
+}
+
+TEST_F(ResultsIntegrity, NoFlippedBitChangesANumberUnnoticed) {
+  // Bits at random places: found, or in a place that changes no number (free space, names of other objects, padding).
+  const std::filesystem::path other = folder_.path() / "other.h5";
+  const std::vector<double> expected = numbers_of(path_);
+  RandomSequence random(7, RandomStream::test, 0);
+  int found = 0;
+  for (int k = 0; k < 300; ++k) {
+    std::string changed = bytes_;
+    const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(changed.size()));
+    changed[at] = static_cast<char>(changed[at] ^ (1 << (k % 8)));
+    test::write_all(other, changed);
+    bool is_noticed = false;
+    try {
+      is_noticed = !check_results(other).damaged.empty();
+    } catch (const IoError&) {
+      is_noticed = true;
+    }
+    found += is_noticed ? 1 : 0;
+    if (is_noticed) continue;
+    std::vector<double> numbers;
+    try {
+      numbers = numbers_of(other);
+    } catch (const IoError&) {
+      continue;  // noticed by whoever reads it
+    }
+    EXPECT_TRUE(numbers == expected) << "bit " << k % 8 << " of byte " << at;
+  }
+  EXPECT_GT(found, 40) << "half of so small a file is heads and free space";
+}
+
+TEST_F(ResultsIntegrity, DamageOfOneStateLeavesTheOthersWhole) {
+  // The middle of the stored chunk of one dataset of state 1.
+  haddr_t place = 0;
+  hsize_t size = 0;
+  {
+    const hdf5::Handle file = hdf5::open_file(path_, hdf5::Access::read);
+    const hdf5::Handle dataset(H5Dopen2(file.id(), "frames/0001/balls/position", H5P_DEFAULT), H5Dclose, "dataset");
+    const hdf5::Handle space(H5Dget_space(dataset.id()), H5Sclose, "space");
+    hsize_t offset[2] = {0, 0};
+    unsigned mask = 0;
+    ASSERT_GE(H5Dget_chunk_info(dataset.id(), space.id(), 0, offset, &mask, &place, &size), 0);
+  }
+  std::string changed = bytes_;
+  changed[place + size / 2] = static_cast<char>(changed[place + size / 2] ^ 4);
+  test::write_all(path_, changed);
+  const ResultsCheck check = check_results(path_);
+  EXPECT_EQ(check.damaged, (std::vector<std::string>{"frames/0001/balls/position"}));
+  EXPECT_EQ(check.whole_states, (std::vector<std::string>{"0000", "0002"}));
+  try {
+    verdict_of(path_, check);
+    FAIL() << "called whole";
+  } catch (const IoError& e) {
+    EXPECT_NE(std::string(e.what()).find("is damaged: frames/0001/balls/position; whole states: 0000, 0002"),
+              std::string::npos)
+        << e.what();
+  }
+  EXPECT_THROW(numbers_of(path_), IoError) << "readers notice it too";
+}
+
+}  // namespace
+}  // namespace dem
