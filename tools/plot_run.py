@@ -96,7 +96,8 @@ def draw_shear(folder, at):
                                 height_ratios=(1, 1.35))
     u = rows["displacement_mm"]
     axes[0, 0].plot(u, rows["shear_stress_kPa"], color=RUBBER, lw=1)
-    axes[0, 0].axhline(summary["peak_shear_stress_kPa"], color="grey", lw=0.6, ls="--")
+    if summary["peak_shear_stress_kPa"] is not None:  # else the record is shorter than 0.1 mm
+        axes[0, 0].axhline(summary["peak_shear_stress_kPa"], color="grey", lw=0.6, ls="--")
     axes[0, 0].set(xlabel="shear displacement, mm", ylabel="shear stress, kPa", xlim=(0, u[-1]))
     axes[0, 0].set_title(f"{summary['case']}: rubber {100 * summary['rubber_content']:.1f} %, normal stress "
                          f"{summary['normal_stress_mean_kPa']:.1f} kPa", fontsize=10, loc="left")

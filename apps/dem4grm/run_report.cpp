@@ -28,14 +28,20 @@ std::string density_lines(const JsonObject& s) {
          line("e_min, e_max", fmt::format("{:.4f}, {:.4f}", n("void_ratio_min"), n("void_ratio_max")));
 }
 
+/// The number with its unit, or that the record was too short for it.
+std::string measured(const JsonObject& s, const char* name, const char* unit, int digits = 2) {
+  if (!has_number(s, name)) return "not measured: the record is too short";
+  return fmt::format("{:.{}f} {}", number_in(s, name), digits, unit);
+}
+
 std::string shear_lines(const JsonObject& s) {
   const auto n = [&](const char* name) { return number_in(s, name); };
   std::string text;
-  text += line("peak shear stress",
-               fmt::format("{:.2f} kPa at {:.2f} mm{}", n("peak_shear_stress_kPa"), n("displacement_at_peak_mm"),
-                           is_set_in(s, "hardening") ? " (still rising: hardening)" : ""));
-  text += line("residual shear stress", fmt::format("{:.2f} kPa", n("residual_shear_stress_kPa")));
-  text += line("dilation angle", fmt::format("{:.2f} degrees", n("dilation_angle_deg")));
+  std::string peak = measured(s, "peak_shear_stress_kPa", "kPa");
+  if (has_number(s, "displacement_at_peak_mm")) peak += fmt::format(" at {:.2f} mm", n("displacement_at_peak_mm"));
+  text += line("peak shear stress", peak + (is_set_in(s, "hardening") ? " (still rising: hardening)" : ""));
+  text += line("residual shear stress", measured(s, "residual_shear_stress_kPa", "kPa"));
+  text += line("dilation angle", measured(s, "dilation_angle_deg", "degrees"));
   text +=
       line("void ratio", fmt::format("{:.3f} prepared, {:.3f} before shear, {:.3f} at the end",
                                      n("void_ratio_prepared"), n("void_ratio_before_shear"), n("void_ratio_at_end")));
@@ -58,11 +64,11 @@ std::string compression_lines(const JsonObject& s) {
   const auto n = [&](const char* name) { return number_in(s, name); };
   std::string text;
   text += line("load at the end", fmt::format("{:.3f} N at {:.1f} % strain", n("load_at_end_N"), 100.0 * n("strain")));
-  text += line("initial stiffness", fmt::format("{:.3f} N/mm", n("initial_stiffness_N_per_mm")));
-  text += line("late stiffness", fmt::format("{:.3f} N/mm", n("late_stiffness_N_per_mm")));
+  text += line("initial stiffness", measured(s, "initial_stiffness_N_per_mm", "N/mm", 3));
+  text += line("late stiffness", measured(s, "late_stiffness_N_per_mm", "N/mm", 3));
   text += line("second neighbours meet",
                n("knee_strain") > 0.0 ? fmt::format("at {:.1f} % strain", 100.0 * n("knee_strain")) : "never");
-  text += line("Poisson's ratio", fmt::format("{:.3f} at first", n("poisson_ratio_initial")));
+  text += line("Poisson's ratio", measured(s, "poisson_ratio_initial", "at first", 3));
   return text;
 }
 

@@ -143,13 +143,19 @@ void find_envelopes(Collection& out) {
     if (is_new) mixtures.push_back({values, {}, {}, 0});
     Mixture& mixture = mixtures[place->second];
     const double sigma = 1e3 * number_in(summary, "normal_stress_mean_kPa");
-    mixture.peak.push_back({sigma, 1e3 * number_in(summary, "peak_shear_stress_kPa")});
-    mixture.residual.push_back({sigma, 1e3 * number_in(summary, "residual_shear_stress_kPa")});
+    const auto take = [&](std::vector<StrengthPoint>& points, const char* name) {  // a short record has none
+      if (has_number(summary, name)) points.push_back({sigma, 1e3 * number_in(summary, name)});
+    };
+    take(mixture.peak, "peak_shear_stress_kPa");
+    take(mixture.residual, "residual_shear_stress_kPa");
     mixture.hardening += is_set_in(summary, "hardening") ? 1 : 0;
   }
   for (const Mixture& mixture : mixtures) {
-    out.envelopes.push_back({mixture.values, "peak", mixture.hardening, fit_envelope(mixture.peak)});
-    out.envelopes.push_back({mixture.values, "residual", mixture.hardening, fit_envelope(mixture.residual)});
+    for (const auto& [quantity, points] :
+         {std::pair{"peak", &mixture.peak}, std::pair{"residual", &mixture.residual}}) {
+      if (points->empty()) continue;
+      out.envelopes.push_back({mixture.values, quantity, mixture.hardening, fit_envelope(*points)});
+    }
   }
 }
 

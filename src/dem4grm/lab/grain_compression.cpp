@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/observe.hpp"
@@ -79,21 +80,21 @@ double stiffness_between(const std::vector<CompressionRow>& rows, double low, do
         sxy += r.displacement * r.load;
   }
   const double spread = n * sxx - sx * sx;
-  return spread > 0.0 ? (n * sxy - sx * sy) / spread : 0.0;
+  return spread > 0.0 ? (n * sxy - sx * sy) / spread : std::numeric_limits<double>::quiet_NaN();
 }
 
 void read_curve(GrainCompressionResult& out) {
   out.initial_stiffness = stiffness_between(out.rows, 0.02, 0.08);
   const double end = out.rows.empty() ? 0.0 : out.rows.back().strain;
   out.late_stiffness = stiffness_between(out.rows, 0.75 * end, end);
-  int n = 0;
+  double sum = 0.0, n = 0.0;
   for (const CompressionRow& r : out.rows) {
     if (r.closed_second_neighbours > 0 && out.knee_strain == 0.0) out.knee_strain = r.strain;
     if (r.strain < 0.02 || r.strain > 0.08) continue;
-    out.poisson_ratio_initial += r.poisson_ratio;
-    ++n;
+    sum += r.poisson_ratio;
+    n += 1.0;
   }
-  if (n > 0) out.poisson_ratio_initial /= n;
+  out.poisson_ratio_initial = sum / n;
 }
 
 }  // namespace

@@ -13,8 +13,10 @@ namespace dem {
 /// Outcome of a grain compression, SI units.
 struct GrainCompressionResult {
   std::vector<CompressionRow> rows;
-  double grain_height = 0.0;           ///< m, outer height at rest
-  double initial_stiffness = 0.0;      ///< N/m, load over displacement between 2 % and 8 % strain
+  double grain_height = 0.0;  ///< m, outer height at rest
+  double initial_stiffness =
+      0.0;  ///< N/m, load over displacement between 2 % and 8 % strain; not a number with fewer than
+            ///< two rows there, as are the next and poisson_ratio_initial
   double late_stiffness = 0.0;         ///< N/m, the same over the last quarter of the strain
   double knee_strain = 0.0;            ///< where the first second neighbours touch; 0 if never
   double poisson_ratio_initial = 0.0;  ///< mean between 2 % and 8 % strain

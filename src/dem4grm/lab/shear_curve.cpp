@@ -58,7 +58,9 @@ void read_dilatancy(std::span<const ShearRow> rows, ShearCurve& c) {
     c.contraction = -r.vertical_displacement;
     c.displacement_at_contraction = r.displacement;
   }
-  c.residual = stage_of(rows, window_begin(rows, rows.size() - 1, k_residual_zone), rows.size() - 1);
+  if (rows.back().displacement >= 0.999 * k_residual_zone) {
+    c.residual = stage_of(rows, window_begin(rows, rows.size() - 1, k_residual_zone), rows.size() - 1);
+  }
   for (std::size_t last = 0; last < rows.size(); ++last) {
     if (rows[last].displacement < 0.999 * k_dilatancy_window) continue;
     const Stage now = stage_of(rows, window_begin(rows, last, k_dilatancy_window), last);
@@ -91,7 +93,7 @@ ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
     const std::size_t begin = window_begin(rows, last, k_peak_window);
     if (rows[last].displacement >= 0.999 * k_peak_window) {
       const double mean = mean_stress(rows.subspan(begin, last + 1 - begin));
-      if (mean > c.peak_stress) {
+      if (!(mean <= c.peak_stress)) {
         c.peak_stress = mean;
         c.displacement_at_peak = 0.5 * (rows[begin].displacement + rows[last].displacement);
       }
@@ -102,7 +104,9 @@ ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
     }
   }
   c.is_hardening = c.displacement_at_peak > end - k_hardening_zone;
-  c.residual_stress = mean_stress(rows.subspan(window_begin(rows, rows.size() - 1, k_residual_zone)));
+  if (end >= 0.999 * k_residual_zone) {
+    c.residual_stress = mean_stress(rows.subspan(window_begin(rows, rows.size() - 1, k_residual_zone)));
+  }
   const auto half =
       std::find_if(rows.begin(), rows.end(), [&](const ShearRow& r) { return r.shear_stress >= 0.5 * c.peak_stress; });
   if (half != rows.end() && half->displacement > 0.0) c.secant_stiffness = half->shear_stress / half->displacement;

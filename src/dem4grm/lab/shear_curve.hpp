@@ -17,30 +17,31 @@ Dilatancy dilatancy_of(std::span<const ShearRow> rows);
 /// Over the last k_dilatancy_window of these rows, or as much of it as there is.
 Dilatancy last_dilatancy(std::span<const ShearRow> rows);
 
-/// SI units; angles in radians; not a number where the record is too short.
+/// What a record is too short for.
+inline constexpr double k_not_measured = std::numeric_limits<double>::quiet_NaN();
+
 struct Stage {
-  double displacement = std::numeric_limits<double>::quiet_NaN();  ///< m, middle of the window
-  Dilatancy dilatancy{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
-                      std::numeric_limits<double>::quiet_NaN()};
+  double displacement = k_not_measured;  ///< m, middle of the window
+  Dilatancy dilatancy{k_not_measured, k_not_measured, k_not_measured};
 };
 
-/// SI units; angles in radians.
+/// SI units; angles in radians; not a number where the record is shorter than a window.
 struct ShearCurve {
-  double peak_stress = 0.0;                   ///< Pa, largest running mean over 0.1 mm
-  double displacement_at_peak = 0.0;          ///< m, middle of that window
-  bool is_hardening = false;                  ///< the peak lies in the last 1 mm
-  double residual_stress = 0.0;               ///< Pa, mean of the last 2 mm
-  double secant_stiffness = 0.0;              ///< Pa/m, at the first point that reaches half the peak
-  double dilation_angle = 0.0;                ///< of the steepest rise of the plate over 1 mm
-  double vertical_displacement_at_end = 0.0;  ///< m
-  double contraction = 0.0;                   ///< m, deepest place of the plate below its start; 0 when it never sinks
-  double displacement_at_contraction = 0.0;   ///< m, there
-  Stage at_peak;                              ///< window around displacement_at_peak
-  Stage fastest_dilation;                     ///< window of the largest rate
-  Stage residual;                             ///< the last 2 mm
+  double peak_stress = k_not_measured;           ///< Pa, largest running mean over 0.1 mm
+  double displacement_at_peak = k_not_measured;  ///< m, middle of that window
+  bool is_hardening = false;                     ///< the peak lies in the last 1 mm
+  double residual_stress = k_not_measured;       ///< Pa, mean of the last 2 mm
+  double secant_stiffness = k_not_measured;      ///< Pa/m, at the first point that reaches half the peak
+  double dilation_angle = k_not_measured;        ///< of the steepest rise of the plate over 1 mm
+  double vertical_displacement_at_end = 0.0;     ///< m
+  double contraction = 0.0;                  ///< m, deepest place of the plate below its start; 0 when it never sinks
+  double displacement_at_contraction = 0.0;  ///< m, there
+  Stage at_peak;                             ///< window around displacement_at_peak
+  Stage fastest_dilation;                    ///< window of the largest rate
+  Stage residual;                            ///< the last 2 mm
 };
 
-/// Rows in order of displacement, at equal intervals. Less than 0.1 mm of record gives zeros.
+/// Rows in order of displacement, at equal intervals. A record of less than 0.1 mm has no curve.
 ShearCurve read_shear_curve(std::span<const ShearRow> rows);
 
 }  // namespace dem

@@ -2,6 +2,7 @@
 #include "dem4grm/micro/fabric.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace dem {
 
@@ -17,7 +18,9 @@ HarmonicFit fabric_anisotropy(const PolarHistogram& histogram) {
   return fit_harmonic(orientation_density(histogram), {}, histogram.bins, 2);
 }
 
-double isotropy_bound(double contacts) { return 4.0 * std::sqrt(2.0 / contacts); }
+double isotropy_bound(double contacts) {
+  return contacts > 0.0 ? 4.0 * std::sqrt(2.0 / contacts) : std::numeric_limits<double>::quiet_NaN();
+}
 
 double direction_error(double contacts, double amplitude) { return std::sqrt(2.0 / contacts) / (2.0 * amplitude); }
 

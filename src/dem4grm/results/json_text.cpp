@@ -104,6 +104,12 @@ const JsonValue* find_field(const JsonObject& object, std::string_view name) {
   return nullptr;
 }
 
+bool has_number(const JsonObject& object, std::string_view name) {
+  const JsonValue* field = find_field(object, name);
+  return field != nullptr &&
+         (std::holds_alternative<double>(field->data) || std::holds_alternative<std::int64_t>(field->data));
+}
+
 double number_in(const JsonObject& object, std::string_view name, double otherwise) {
   const JsonValue* value = find_field(object, name);
   if (value == nullptr) return otherwise;

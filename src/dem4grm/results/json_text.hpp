@@ -53,6 +53,8 @@ JsonObject read_json_file(const std::filesystem::path& path);
 const JsonValue* find_field(const JsonObject& object, std::string_view name);
 /// The number in a field; `otherwise` when there is none.
 double number_in(const JsonObject& object, std::string_view name, double otherwise = 0.0);
+/// True when the field is there and holds a number.
+bool has_number(const JsonObject& object, std::string_view name);
 /// The text in a field; empty when there is none.
 std::string text_in(const JsonObject& object, std::string_view name);
 /// True when the field is there and true.

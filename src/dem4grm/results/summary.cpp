@@ -138,6 +138,7 @@ JsonObject volume_of(const ShearCurve& c) {
 
 /// The recorded micro-mechanics nearest to the peak; null without any.
 JsonValue micro_at_peak(const DirectShearResult& r) {
+  if (std::isnan(r.curve.displacement_at_peak)) return {};
   const MicroRow* nearest = nullptr;
   const auto distance = [&](const MicroRow& row) { return std::fabs(row.displacement - r.curve.displacement_at_peak); };
   for (const MicroRow& row : r.micro_rows) {

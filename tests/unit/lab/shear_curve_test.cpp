@@ -115,11 +115,23 @@ TEST(Dilatancy, ARecordThatOnlyRisesHasNoContraction) {
   EXPECT_EQ(c.displacement_at_contraction, 0.0);
 }
 
-TEST(ShearCurve, TooShortARecordGivesZeros) {
+TEST(ShearCurve, WhatARecordIsTooShortForIsNotMeasured) {
   const ShearCurve c = read_shear_curve(record(
       5e-5, [](double) { return 1e3; }, [](double) { return 0.0; }));
-  EXPECT_EQ(c.peak_stress, 0.0);
-  EXPECT_EQ(read_shear_curve({}).peak_stress, 0.0);
+  EXPECT_TRUE(std::isnan(c.peak_stress));
+  EXPECT_TRUE(std::isnan(read_shear_curve({}).peak_stress));
+  // Half a millimetre has a peak, but neither a dilation angle over 1 mm nor a residual over 2 mm.
+  const auto up_to = [](double end) {
+    return read_shear_curve(record(
+        end, [](double u) { return 5e6 * u; }, [](double u) { return 0.1 * u; }));
+  };
+  EXPECT_GT(up_to(0.5e-3).peak_stress, 0.0);
+  EXPECT_TRUE(std::isnan(up_to(0.5e-3).dilation_angle));
+  EXPECT_TRUE(std::isnan(up_to(0.5e-3).residual_stress));
+  EXPECT_NEAR(up_to(1e-3).dilation_angle, std::atan(0.1), 1e-9);
+  EXPECT_TRUE(std::isnan(up_to(1.9e-3).residual_stress));
+  EXPECT_TRUE(std::isnan(up_to(1.9e-3).residual.dilatancy.rate));
+  EXPECT_NEAR(up_to(2e-3).residual_stress, 5e6 * 1.005e-3, 1e-3);
   EXPECT_TRUE(std::isnan(c.at_peak.dilatancy.rate)) << "what was not measured is no zero";
 }
 
