@@ -23,7 +23,9 @@ void check_group(const hdf5::Handle& group, const std::string& path, ResultsChec
     return;
   }
   for (const std::string& name : names) {
-    const std::string place = path.empty() ? name : path + "/" + name;
+    std::string place = path;
+    if (!place.empty()) place += '/';
+    place += name;
     try {
       if (hdf5::is_group(group, name)) {
         check_group(hdf5::open_group(group, name), place, out);
