@@ -20,6 +20,7 @@ Dilatancy last_dilatancy(std::span<const ShearRow> rows);
 /// What a record is too short for.
 inline constexpr double k_not_measured = std::numeric_limits<double>::quiet_NaN();
 
+/// The dilatancy of one window of the record.
 struct Stage {
   double displacement = k_not_measured;  ///< m, middle of the window
   Dilatancy dilatancy{k_not_measured, k_not_measured, k_not_measured};
