@@ -34,19 +34,14 @@ const StateProfile& chosen_state(const std::vector<StateProfile>& states, const 
   });
 }
 
-void write_csv(const std::filesystem::path& path, const std::vector<StateProfile>& states) {
-  TableFile table(path, profile_columns());
-  for (const StateProfile& state : states) {
-    for (const ProfileLayer& layer : state.layers) table.append(profile_values(state, layer));
-  }
-  table.sync();
-}
-
 void show_profile(const ProfileVerbOptions& given) {
   const std::filesystem::path results = results_in(given.path);
   const std::vector<StateProfile> states = read_profiles(results, given.layers);
   const StateProfile& state = chosen_state(states, given.at);
-  if (!given.csv.empty()) write_csv(given.csv, states);
+  if (!given.csv.empty()) {
+    TableFile table(given.csv, profile_columns());
+    append_profiles(table, states);
+  }
   if (given.is_json) {
     print_result(json_text(profiles_as_json(states)));
     return;

@@ -75,6 +75,22 @@ TEST_F(CheckpointFault, WhateverCallIsHitAWholeGenerationIsLeft) {
   }
 }
 
+TEST_F(CheckpointFault, ADamagedNewestOneDoesNotReplaceTheWholeOneBeforeIt) {
+  for (int at = 1;; ++at) {
+    clean();
+    write(1.0);
+    write(2.0);
+    std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
+    const FaultEnd end = test::run_with_fault(Fault::kill, at, [&] { write(3.0); });
+    const double found = newest();
+    EXPECT_TRUE(found == 1.0 || found == 3.0) << "call " << at << " left generation " << found;
+    if (!end.was_due) {
+      EXPECT_EQ(found, 3.0);
+      break;
+    }
+  }
+}
+
 TEST_F(CheckpointFault, TheFirstCheckpointOfARunIsWholeOrNotThere) {
   for (int at = 1;; ++at) {
     clean();

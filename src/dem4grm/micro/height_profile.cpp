@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem4grm/core/bounds.hpp"
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/engine/observe.hpp"
 #include "dem4grm/micro/rubber_strain.hpp"
 #include "dem4grm/micro/strong_network.hpp"
 #include "dem4grm/specimen/solid_columns.hpp"
@@ -157,17 +157,6 @@ Vec3 rotation_between(const Quaternion& from, const Quaternion& to) {
   const Vec3 axis{q.x, q.y, q.z};
   const double sine = norm(axis);
   return sine > 0.0 ? axis * (2.0 * std::atan2(sine, q.w) / sine) : Vec3{};
-}
-
-ProfileState profile_state_of(const Simulation& s, double displacement) {
-  ProfileState out{displacement, packing_of(s), contact_network_of(s), {}};
-  const RubberState rubber = rubber_state_of(s);
-  for (std::size_t g = 0; g < rubber.n_grains(); ++g) {
-    out.orientation.push_back(grain_orientation(
-        std::span(rubber.ball_position).subspan(g * k_grain_balls, k_grain_balls), rubber.rest_length[g]));
-  }
-  for (const Clump& c : s.clumps.clumps) out.orientation.push_back(c.orientation);
-  return out;
 }
 
 StateProfile height_profile(const ProfileState& start, const ProfileState& now, const ProfileOptions& options) {

@@ -19,7 +19,6 @@ struct ProfileState {
   ContactNetwork network;
   std::vector<Quaternion> orientation;  ///< [n_bodies], rubber: grain_orientation
 };
-ProfileState profile_state_of(const Simulation& s, double displacement);
 
 /// Rotation of a deformed rubber grain: the orthogonal part R of its deformation F = R U (rubber_strain.hpp).
 Quaternion grain_orientation(std::span<const Vec3> balls, double rest_length);

@@ -118,6 +118,13 @@ std::vector<double> profile_values(const StateProfile& profile, const ProfileLay
   return values;
 }
 
+void append_profiles(TableFile& table, std::span<const StateProfile> profiles) {
+  for (const StateProfile& state : profiles) {
+    for (const ProfileLayer& layer : state.layers) table.append(profile_values(state, layer));
+  }
+  table.sync();
+}
+
 JsonList shear_bands_as_json(std::span<const StateProfile> profiles) {
   JsonList list;
   for (const StateProfile& p : profiles) list.emplace_back(band_as_json(p));

@@ -21,6 +21,8 @@ std::vector<StateProfile> read_profiles(const std::filesystem::path& results, in
 /// Columns of profiles.csv: one row for each layer of each state, the lowest first.
 std::span<const ColumnInfo> profile_columns();
 std::vector<double> profile_values(const StateProfile& profile, const ProfileLayer& layer);
+/// All rows of all states, brought to the disk. table: of profile_columns. Throws IoError.
+void append_profiles(TableFile& table, std::span<const StateProfile> profiles);
 
 /// The shear band of each state: the list "shear_band" of summary.json.
 JsonList shear_bands_as_json(std::span<const StateProfile> profiles);

@@ -27,6 +27,15 @@ auto naming_file(const std::filesystem::path& path, const Work& work) {
   }
 }
 
+bool is_whole(const std::filesystem::path& path) {
+  try {
+    check_seal(path);
+    return true;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
 void write_draft(const std::filesystem::path& draft, const StateArchive& state, const CheckpointFacts& facts) {
   hdf5::Handle file = hdf5::create_file(draft, k_seal_bytes);
   {
@@ -57,7 +66,8 @@ void write_checkpoint(const std::filesystem::path& path, const StateArchive& sta
     std::filesystem::remove(draft, ignored);
     throw;
   }
-  publish_file(draft, path, older);
+  // A damaged one is written over: kept, it would take the place of the whole one before it.
+  publish_file(draft, path, is_whole(path) ? older : std::filesystem::path());
 }
 
 StoredCheckpoint read_checkpoint(const std::filesystem::path& path) {

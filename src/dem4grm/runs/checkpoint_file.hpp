@@ -25,7 +25,7 @@ struct StoredCheckpoint {
 };
 
 /// Written beside the old one, brought to the disk, then renamed: a reader finds the old one or the new one, whole.
-/// With `older` the old one is kept under that name. Throws IoError, leaves the old ones and nothing else.
+/// With `older` the old one, if it is whole, is kept under that name. Throws IoError, leaves the old ones and nothing else.
 void write_checkpoint(const std::filesystem::path& path, const StateArchive& state, const CheckpointFacts& facts,
                       const std::filesystem::path& older = {});
 

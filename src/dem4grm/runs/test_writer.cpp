@@ -213,10 +213,7 @@ void TestWriter::write_tables() {
 void TestWriter::write_profiles() {
   profiles_ = read_profiles(folder_.file(file_name::k_results));
   TableFile table(folder_.file(file_name::k_profiles), profile_columns());
-  for (const StateProfile& state : profiles_) {
-    for (const ProfileLayer& layer : state.layers) table.append(profile_values(state, layer));
-  }
-  table.sync();
+  append_profiles(table, profiles_);
   results_->add_table("profiles", table);
 }
 
