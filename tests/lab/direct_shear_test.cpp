@@ -184,6 +184,24 @@ TEST(FillTest, NoGrainIsCaughtForAnySeed) {
   EXPECT_LT(mean, 0.75);
 }
 
+TEST(FillTest, OverlappingGrainsPartAndNoneIsCaught) {
+  for (const double content : {0.0, 0.3, 1.0}) {
+    const DirectShearCase test = small_case(content);
+    const GrainList grains = draw_grains(test.specimen, test.box, test.rubber.density, test.rubber_solid_density, 3);
+    FillSettings settings;
+    settings.void_ratio = content < 1.0 ? 0.78 : 1.1;
+    settings.generation = Generation::overlapping;
+    settings.seed = 3;
+    const Fill fill = make_fill(grains, test.box, materials_of(test), settings, {});
+    EXPECT_EQ(fill.caught, 0) << content;
+    EXPECT_LE(fill.largest_overlap, settings.overlap_goal) << content;
+    settings.generation = Generation::grown;
+    const Fill grown = make_fill(grains, test.box, materials_of(test), settings, {});
+    EXPECT_NE(fill.steps, grown.steps) << content;
+    EXPECT_DOUBLE_EQ(fill.height, grown.height) << content;
+  }
+}
+
 TEST(FillTest, OtherSeedsGiveOtherPlacesTheSameSeedTheSame) {
   const DirectShearCase test = small_case(0.0);
   const GrainList grains = draw_grains(test.specimen, test.box, test.rubber.density, test.rubber_solid_density, 1);

@@ -54,7 +54,7 @@ struct QuantityOrWord {
 /// enumeration are named by Key::choices in the order of its enumerators.
 using Slot = std::variant<TestName, double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*, bool*,
                           std::string*, std::vector<double>*, GradingSlot, ClumpTemplatesSlot, ShapeNamesSlot,
-                          QuantityOrWord, BondForm*, TimeStepRule*, MovingHalf*, SplitPlane*>;
+                          QuantityOrWord, BondForm*, TimeStepRule*, MovingHalf*, SplitPlane*, Generation*>;
 
 struct Key {
   std::string_view section{};  ///< "rubber.bond"; empty for the keys before the first section

@@ -81,7 +81,7 @@ CaseFacts facts_of(const DirectShearCase& test) {
   facts.rows = static_cast<int>(std::ceil(test.shear.displacement / test.recording.interval - 1e-9));
   const double vrc = test.specimen.rubber_content;
   facts.expected_void_ratio = test.specimen.expected_void_ratio.value_or(expected_void_ratio(vrc));
-  facts.generation_void_ratio = test.specimen.generation_void_ratio.value_or(laboratory_void_ratio(vrc));
+  facts.generation_void_ratio = generation_void_ratio(test.specimen);
   return facts;
 }
 

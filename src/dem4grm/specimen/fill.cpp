@@ -12,6 +12,7 @@
 #include "dem4grm/core/space_curve.hpp"
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/engine/time_step.hpp"
+#include "dem4grm/specimen/fill_check.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -22,8 +23,12 @@ namespace {
 constexpr double k_growth_stress = 50e3;
 constexpr double k_growth_damping = 0.7;
 
+/// Radius over that of a ball of the sphere that fills the middle of an overlapping rubber grain. Between the outer balls
+/// it stays 0.06 below what another grain's ball can touch there, so it only drives out what lies inside.
+constexpr double k_core_radius = 2.9;
+
 /// The rubber grain as a rigid clump of unit ball radius; the masses of its balls add up.
-ClumpTemplate rigid_rubber_grain() {
+ClumpTemplate rigid_rubber_grain(Generation generation) {
   ClumpTemplate t;
   t.name = "rubber grain";
   const double ball = 4.0 / 3.0 * std::numbers::pi;
@@ -34,13 +39,14 @@ ClumpTemplate rigid_rubber_grain() {
     moment += ball * (0.4 + p.y * p.y + p.z * p.z);
     t.bounding_radius = std::max(t.bounding_radius, norm(p) + 1.0);
   }
+  if (generation == Generation::overlapping) t.pebbles.push_back({{}, k_core_radius});
   t.volume = ball * k_grain_balls;
   t.moment_of_inertia = {moment, moment, moment};  // cubic symmetry
   return t;
 }
 
 /// All grains as clumps at full size; gravel first, then rubber.
-Scene clump_scene(const GrainList& grains, const Scene& materials) {
+Scene clump_scene(const GrainList& grains, const Scene& materials, Generation generation) {
   Scene scene = materials;
   scene.grains.clear();
   scene.clumps.clear();
@@ -48,7 +54,7 @@ Scene clump_scene(const GrainList& grains, const Scene& materials) {
   scene.integration.local_damping = k_growth_damping;
   for (const GravelGrain& g : grains.gravel) scene.clumps.push_back({g.shape, g.sieve_size, {}, k_gravel});
   const int rubber_shape = static_cast<int>(scene.shapes.size());
-  scene.shapes.push_back(rigid_rubber_grain());
+  scene.shapes.push_back(rigid_rubber_grain(generation));
   for (int g = 0; g < grains.rubber_count; ++g) {
     scene.clumps.push_back({rubber_shape, grains.ball_radius_of_rubber(g), {}, k_rubber});
   }
@@ -89,6 +95,21 @@ class PlacedSpheres {
   int nx_ = 1, ny_ = 1, nz_ = 1;
   std::vector<std::vector<std::pair<Vec3, double>>> cells_;
 };
+
+/// Random places that keep every grain inside the box, whatever lies there already; random orientations.
+void insert_overlapping(Scene& scene, const Vec3& size, std::uint64_t seed) {
+  for (std::size_t k = 0; k < scene.clumps.size(); ++k) {
+    PlacedClump& c = scene.clumps[k];
+    const double r = c.size * scene.shapes[static_cast<std::size_t>(c.shape)].bounding_radius;
+    const auto within = [r](RandomSequence& random, double length) {
+      return 2.0 * r < length ? random.uniform(r, length - r) : 0.5 * length;
+    };
+    RandomSequence random(seed, RandomStream::grain_position, k);
+    const double x = within(random, size.x), y = within(random, size.y), z = within(random, size.z);
+    c.pose.position = {x, y, z};
+    c.pose.orientation = RandomSequence(seed, RandomStream::grain_orientation, k).orientation();
+  }
+}
 
 /// Random places for spheres around the grains at the given scale, largest first; false when one found no place.
 bool insert(Scene& scene, const Vec3& size, double scale, std::uint64_t seed) {
@@ -139,6 +160,12 @@ void fit_time_step(Simulation& s, double longest_step) {
   s.set_time_step(std::max(rounded_down_to_nanosecond(std::min(longest_step, present)), 1e-8));
 }
 
+/// Finds the first contacts, which the choice of a time step needs.
+void take_first_step(Simulation& s) {
+  s.set_time_step(1e-8);
+  s.step();
+}
+
 /// A few damped time steps from rest.
 void push_apart(Simulation& s, double longest_step, int steps) {
   s.reset_velocities();
@@ -172,13 +199,29 @@ void relax(Simulation& s, double longest_step, const FillSettings& settings, Fil
         "(goal {:.4f}). Choose a larger generation_void_ratio",
         seen, state.relaxation_steps, settings.overlap_goal));
   }
-  push_apart(s, longest_step, settings.steps_per_reset);
-  state.relaxation_steps += settings.steps_per_reset;
-  state.steps += settings.steps_per_reset;
+  const int steps = seen > settings.deep_overlap     ? settings.steps_per_calm_deep
+                    : seen > settings.growth_overlap ? settings.steps_per_calm
+                                                     : settings.steps_per_reset;
+  push_apart(s, longest_step, steps);
+  state.relaxation_steps += steps;
+  state.steps += steps;
 }
 
-/// The grains at their first size, at random and apart; returns that size over the full one.
-double place_small(Scene& scene, const Vec3& size, const FillSettings& settings) {
+void check_inside(const Simulation& s, const Vec3& size) {
+  const int outside = first_outside(s, size);
+  if (outside < 0) return;
+  throw PhysicsError(
+      fmt::format("the random fill pushed grain {} out of the box; choose another seed, a larger "
+                  "generation_void_ratio or generation = \"grown\"",
+                  outside));
+}
+
+/// The grains at their first places; returns their size over the full one.
+double place(Scene& scene, const Vec3& size, const FillSettings& settings) {
+  if (settings.generation == Generation::overlapping) {
+    insert_overlapping(scene, size, settings.seed);
+    return 1.0;
+  }
   double scale = settings.start_scale;
   while (!insert(scene, size, scale, settings.seed)) {
     scale *= 0.9;
@@ -198,20 +241,24 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
         fmt::format("the loose fill would be {:.1f} mm high, but the box ends at {:.1f} mm; raise box.upper_height",
                     fill.height * 1e3, box.upper_height * 1e3));
   }
-  Scene scene = clump_scene(grains, materials);
+  Scene scene = clump_scene(grains, materials, settings.generation);
   BoxSettings smooth = box;
   smooth.plate_roughness = 0.0;
   scene.wall_list = ShearBox(smooth, fill.height).walls();
-  const double scale = place_small(scene, {box.length, box.width, fill.height}, settings);
+  const double scale = place(scene, {box.length, box.width, fill.height}, settings);
   const std::vector<int> drawn = sort_along_curve(scene.clumps, [](const PlacedClump& c) { return c.pose.position; });
   Simulation s(scene);
   FrictionTable friction;
   for (auto& row : friction.between_grains) row.fill(settings.friction);
   s.set_friction(friction);
   const double longest = rounded_down_to_nanosecond(0.8 * expected_clump_limit(s, k_growth_stress).seconds);
-  const int growths = std::max(1, static_cast<int>(std::ceil((1.0 - scale) / settings.growth)));
+  const int growths = static_cast<int>(std::ceil((1.0 - scale) / settings.growth));
   FillState state;
   if (hooks.restore) hooks.restore(state, s);
+  if (state.steps == 0 && growths == 0) {
+    take_first_step(s);
+    state.steps = 1;
+  }
   while (!state.is_relaxed) {
     if (state.growth_steps < growths) {
       ++state.growth_steps;
@@ -223,9 +270,10 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
     if (hooks.between) hooks.between(share, state, s);
   }
   fill.steps = state.steps;
+  check_inside(s, {box.length, box.width, fill.height});
   const OverlapReport overlap = worst_overlap(s);
   fill.largest_overlap = overlap.largest;
-  fill.caught = overlap.caught;
+  fill.caught = overlap.caught + interlocked_balls(s, static_cast<int>(scene.shapes.size()) - 1);
   fill.alignment = rubber_alignment(s);
   fill.gravel.resize(grains.gravel.size());
   fill.rubber.resize(static_cast<std::size_t>(grains.rubber_count));

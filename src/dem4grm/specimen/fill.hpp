@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The random fill: grains at random places and in random orientations, grown to full size in the closed box.
+// The random fill: grains at random places and in random orientations, grown to full size in the closed box, or placed
+// with their full size whatever they overlap.
 //
 // Grains start at a fraction of their size, at random and without touching, and grow in small steps; after each step
 // they push each other apart without friction, with their velocities reset. Because no grain ever lies deep inside
-// another, none can be caught or interlocked, which a fill that starts fully overlapping cannot promise. Rubber grains
+// another, none can be caught or interlocked, which the other way, Generation::overlapping, cannot promise: its grains
+// push each other apart from wherever they were put, and what stays caught is counted. Rubber grains
 // are rigid clumps of 35 balls meanwhile and are bonded afterwards, at rest. The box has the height that gives the
 // generation void ratio; that void ratio is looser than a frictionless packing can carry load at, so the fill ends
 // almost without forces.
@@ -16,6 +18,7 @@
 #include "dem4grm/engine/scene.hpp"
 #include "dem4grm/engine/simulation.hpp"
 #include "dem4grm/specimen/grain_list.hpp"
+#include "dem4grm/specimen/settings.hpp"
 #include "dem4grm/walls/box_settings.hpp"
 
 namespace dem {
@@ -24,10 +27,15 @@ struct FillSettings {
   double void_ratio = 0.7;
   double friction = 0.0;
   std::uint64_t seed = 1;
-  double start_scale = 0.55;     ///< first size over final size
-  double growth = 0.005;         ///< of the final size per growth step
-  int steps_per_growth = 60;     ///< time steps after each growth step
-  int steps_per_reset = 400;     ///< time steps between velocity resets while the full-size grains relax
+  Generation generation = Generation::grown;
+  double start_scale = 0.55;  ///< first size over final size
+  double growth = 0.005;      ///< of the final size per growth step
+  int steps_per_growth = 60;  ///< time steps after each growth step
+  int steps_per_reset = 400;  ///< time steps between velocity resets while the full-size grains relax
+  int steps_per_calm = 20;    ///< the same while overlaps are larger than growth_overlap
+  int steps_per_calm_deep =
+      1;  ///< and while they are larger than deep_overlap: pushed from rest, no grain passes another
+  double deep_overlap = 0.5;     ///< over the smaller radius
   double growth_overlap = 0.05;  ///< largest overlap over the smaller radius before the next growth step
   int most_steps_per_growth = 6000;
   double overlap_goal = 5e-3;  ///< largest overlap over the smaller radius when the fill counts as relaxed

@@ -32,8 +32,7 @@ class Preparation {
     out_.grains =
         draw_grains(order.specimen, order.box, order.materials.rubber.density, order.solid_density, order.seed);
     describe(out_.grains, order, out_.report);
-    out_.report.void_ratio_generated =
-        order.specimen.generation_void_ratio.value_or(laboratory_void_ratio(order.specimen.rubber_content));
+    out_.report.void_ratio_generated = generation_void_ratio(order.specimen);
     out_.load = {ShearBox::k_top_plate, order.box.length * order.box.width,
                  order.normal_stress,   order.specimen.approach_speed,
                  order.servo.gain,      out_.grains.solid_volume()};
@@ -83,6 +82,7 @@ class Preparation {
     FillSettings settings;
     settings.void_ratio = out_.report.void_ratio_generated;
     settings.friction = order_.specimen.generation_friction;
+    settings.generation = order_.specimen.generation;
     settings.seed = order_.seed;
     FillHooks hooks;
     hooks.restore = [&](FillState& state, Simulation& s) {
@@ -100,8 +100,8 @@ class Preparation {
     fill_ = make_fill(out_.grains, order_.box, order_.materials, settings, hooks);
     if (fill_.caught > 0) {
       throw PhysicsError(
-          fmt::format("the random fill caught {} ball centres inside other grains; choose another seed or a "
-                      "larger generation_void_ratio",
+          fmt::format("the random fill caught {} ball centres inside other grains; choose another seed, a "
+                      "larger generation_void_ratio or generation = \"grown\"",
                       fill_.caught));
     }
     out_.gravel_order = number_along_curve(out_.grains, fill_);

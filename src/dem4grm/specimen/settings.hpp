@@ -2,6 +2,7 @@
 // Settings of a specimen: gradings, contents and how it is prepared, in SI units.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,12 @@ using Grading = std::vector<GradingPoint>;
 
 /// Target of the search when a case names neither a relative density nor a preparation friction (Chew et al. 2022).
 inline constexpr double k_default_relative_density = 0.5;
+
+/// Relative density of the random fill between the laboratory's loosest and densest state of a mixture.
+inline constexpr double k_default_generation_density = 0.5;
+
+/// How the grains of the random fill come to their places (specimen/fill.hpp).
+enum class Generation : std::uint8_t { grown, overlapping };
 
 /// A clump shape of the user: pebbles in any frame and any unit of length, since only the shape counts.
 struct ClumpShape {
@@ -44,8 +51,10 @@ struct SpecimenSettings {
   std::vector<double> clump_shares;  ///< of the gravel's volume, one for each of clump_shapes; empty: equal
   std::optional<int> gravel_clumps;  ///< explicit count instead of the one from the box volume
   std::optional<int> rubber_grains;
-  std::optional<double> expected_void_ratio;    ///< sets the number of grains; default by rubber content
-  std::optional<double> generation_void_ratio;  ///< of the random fill; default: laboratory value by rubber content
+  std::optional<double> expected_void_ratio;  ///< sets the number of grains; default by rubber content
+  Generation generation = Generation::grown;
+  double generation_relative_density = k_default_generation_density;  ///< of the random fill, in the laboratory's range
+  std::optional<double> generation_void_ratio;                        ///< of the random fill, in place of that
   double generation_friction = 0.0;
   double approach_speed = 0.05;             ///< m/s, largest speed of the plate before shear
   double approach_inertial_number = 0.003;  ///< in branches the plate may go as fast as this, too

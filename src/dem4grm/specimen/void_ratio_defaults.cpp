@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "dem4grm/core/error.hpp"
@@ -12,12 +13,12 @@
 namespace dem {
 namespace {
 
-struct LaboratoryPoint {
-  double rubber_content = 0.0, void_ratio = 0.0;
+struct LaboratoryRange {
+  double rubber_content = 0.0, loosest = 0.0, densest = 0.0;
 };
 
-constexpr std::array<LaboratoryPoint, 5> k_laboratory{
-    {{0.0, 0.63}, {0.10, 0.65}, {0.25, 0.70}, {0.40, 0.74}, {1.0, 1.01}}};
+constexpr std::array<LaboratoryRange, 5> k_laboratory{
+    {{0.0, 0.725, 0.545}, {0.10, 0.778, 0.561}, {0.25, 0.818, 0.577}, {0.40, 0.912, 0.590}, {1.0, 1.272, 0.787}}};
 constexpr double k_expected_gravel = 0.534;
 constexpr double k_expected_rubber = 0.782;
 
@@ -29,13 +30,19 @@ void check_rubber_content(double rubber_content) {
 
 }  // namespace
 
-double laboratory_void_ratio(double rubber_content) {
+double laboratory_void_ratio(double rubber_content, double relative_density) {
   check_rubber_content(rubber_content);
   std::size_t row = 1;
   while (row + 1 < k_laboratory.size() && rubber_content > k_laboratory[row].rubber_content) ++row;
-  const LaboratoryPoint &low = k_laboratory[row - 1], &high = k_laboratory[row];
+  const LaboratoryRange &low = k_laboratory[row - 1], &high = k_laboratory[row];
   const double share = (rubber_content - low.rubber_content) / (high.rubber_content - low.rubber_content);
-  return low.void_ratio + share * (high.void_ratio - low.void_ratio);
+  const double loosest = std::lerp(low.loosest, high.loosest, share);
+  return loosest - relative_density * (loosest - std::lerp(low.densest, high.densest, share));
+}
+
+double generation_void_ratio(const SpecimenSettings& settings) {
+  return settings.generation_void_ratio.value_or(
+      laboratory_void_ratio(settings.rubber_content, settings.generation_relative_density));
 }
 
 double expected_void_ratio(double rubber_content) {
