@@ -16,6 +16,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/runs/folder_lock.hpp"
 #include "dem4grm/runs/output_folder.hpp"
+#include "dem4grm/runs/stop_cause.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
 
@@ -132,7 +133,7 @@ void run_study_on_cluster(const CampaignOptions& options) {
 }
 
 void run_study_here(const CampaignOptions& options) {
-  install_stop_signals();
+  install_signals(options.most_hours);
   const Study study = read_study(options);
   const CampaignFolder folder(folder_for(options, study));
   make_root(folder.root());
@@ -156,6 +157,7 @@ void run_study_here(const CampaignOptions& options) {
   settings.memory = memory;
   settings.retries_physics = options.retries;
   settings.stop_flag = &stop_requested;
+  settings.save_flag = &save_requested;
   settings.listener = &progress;
   if (!options.is_quiet && !is_free) {
     print_note(fmt::format("{} tests, {} at a time with {} thread(s) each, about {}", study.tests.size(),
@@ -165,9 +167,8 @@ void run_study_here(const CampaignOptions& options) {
   report(options, folder, record, outcome.tests);
   const StateCounts n = count_states(outcome.tests);
   if (outcome.was_stopped) {
-    throw Error(ExitCode::stopped,
-                fmt::format("stopped on request; the same command goes on: dem4grm campaign run {} -o {}",
-                            options.study, folder.root().string()));
+    throw Error(ExitCode::stopped, fmt::format("stopped {}; the same command goes on: dem4grm campaign run {} -o {}",
+                                               stop_words(stop_requested), options.study, folder.root().string()));
   }
   if (n.done < n.all()) {
     throw Error(
@@ -193,7 +194,7 @@ void join_scheduler(const CampaignFolder& folder, std::vector<TestStatus>& tests
 
 void show_campaign_status(const CampaignOptions& options) {
   const CampaignFolder folder(options.folder);
-  install_stop_signals();
+  install_signals();
   for (;;) {
     const CampaignRecord record = read_campaign(folder);
     std::vector<TestStatus> tests = status_of_all(folder, record);

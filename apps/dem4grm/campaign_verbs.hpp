@@ -13,6 +13,7 @@ struct CampaignOptions {
   std::string study, folder, output;
   CrewWish crew;
   double memory_gigabytes = 0.0;
+  double most_hours = 0.0;  ///< 0: no limit
   bool is_json = false, is_quiet = false, is_watch = false, retries = false;
   std::string scheduler;  ///< "slurm", or empty: this machine
   SlurmOptions slurm;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// --set key=value, shared by the verbs that read a case.
+// Options that several verbs share.
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
@@ -14,6 +14,17 @@ void add_set_option(CLI::App& verb, std::vector<std::string>& settings) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->delimiter('\0');
+}
+
+void add_most_hours(CLI::App& verb, double& hours) {
+  verb.add_option("--max-hours", hours, "save and end after so many hours (exit code 75);\nthe same command goes on")
+      ->type_name("H")
+      ->check(CLI::PositiveNumber)
+      ->take_last();
+}
+
+CLI::Validator not_empty() {
+  return {[](std::string& text) { return text.empty() ? std::string("the name is empty") : std::string(); }, ""};
 }
 
 std::vector<Override> overrides_from(const std::vector<std::string>& settings) {

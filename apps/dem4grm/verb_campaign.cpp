@@ -58,8 +58,10 @@ void add_run_verb(CLI::App& campaign, const std::shared_ptr<CampaignOptions>& op
   CLI::App* verb = campaign.add_subcommand("run", "runs all tests of a study that are not done");
   verb->add_option("STUDY", options->study, "study file")->required();
   verb->add_option("-o,--output", options->folder, "folder of the campaign, default runs/<name of the study>")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
   add_crew(*verb, *options);
+  add_most_hours(*verb, options->most_hours);
   verb->add_flag("--retry", options->retries, "also tests that failed in their physics");
   verb->add_flag("--json", options->is_json, "at the end the state of all tests as JSON on stdout");
   verb->add_flag("-q,--quiet", options->is_quiet, "no progress, no report; errors only");

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "dem4grm/core/thread_trial.hpp"
 #include "dem4grm/runs/run_case.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
@@ -22,7 +23,8 @@ constexpr int k_most_threads = 1024;
 
 struct RunOptions {
   std::string case_path, folder, store, specimen;
-  int threads = 0;  ///< 0: all processors that this process may use
+  int threads = 0;          ///< 0: all processors that this process may use
+  double most_hours = 0.0;  ///< 0: no limit
   std::vector<std::string> settings;
   bool is_json = false, is_quiet = false, is_verbose = false;
   bool is_specimen_only = false;
@@ -39,6 +41,23 @@ std::string batch_job() {
   return job == nullptr ? std::string() : fmt::format("slurm {}", job);
 }
 
+/// The OpenMP runtime ends the program without a word about the run when it cannot have its threads, so they are tried before.
+void check_threads(int threads, int processors, bool is_quiet) {
+  if (threads > processors && !is_quiet) {
+    print_warning(
+        fmt::format("{} threads on {} processor{}: threads that wait for one another's turn make a run several times "
+                    "slower; -j {} or none is faster, with the same results",
+                    threads, processors, processors == 1 ? "" : "s", processors));
+  }
+  const int possible = possible_threads(threads);
+  if (possible < threads) {
+    throw Error(ExitCode::memory,
+                fmt::format("only {} of {} threads can be started here (limits: ulimit -u, ulimit -v, the "
+                            "control group); choose fewer with -j",
+                            possible, threads));
+  }
+}
+
 void run(const RunOptions& options) {
   const std::vector<Override> overrides = overrides_from(options.settings);
   const LoadedCase loaded = load_case(options.case_path, overrides);
@@ -49,8 +68,9 @@ void run(const RunOptions& options) {
   }
   const bool is_free = options.threads == 0;  // then the number may change during the run
   const int threads = is_free ? std::min(omp_get_num_procs(), k_most_threads) : options.threads;
+  check_threads(threads, omp_get_num_procs(), options.is_quiet);
   omp_set_num_threads(threads);
-  install_stop_signals();
+  install_signals(options.most_hours);
   ProgressLine line(remaining_time_of(loaded.test, options.is_specimen_only), loudness_of(options));
   ThreadTuner tuner(line, threads);
   LabObserver& listener = is_free ? static_cast<LabObserver&>(tuner) : line;
@@ -61,6 +81,7 @@ void run(const RunOptions& options) {
   settings.job = batch_job();
   settings.links.listener = &listener;
   settings.links.stop_flag = &stop_requested;
+  settings.links.save_flag = &save_requested;
   settings.links.store = options.store;
   settings.links.is_specimen_only = options.is_specimen_only;
   const RunOutcome outcome = run_case(loaded, settings);
@@ -81,15 +102,20 @@ void run(const RunOptions& options) {
 /// What both verbs can be told.
 void add_common(CLI::App& verb, RunOptions& options) {
   verb.add_option("CASE", options.case_path, "case file")->required();
-  verb.add_option("-o,--output", options.folder, "output folder, default runs/<name of the case>")->type_name("DIR");
+  verb.add_option("-o,--output", options.folder, "output folder, default runs/<name of the case>")
+      ->type_name("DIR")
+      ->check(not_empty());
   verb.add_option("-j,--threads", options.threads,
                   "threads; by default as many processors as pay off,\nany number gives the same results")
       ->type_name("N")
-      ->check(CLI::Range(1, k_most_threads));
+      ->check(CLI::Range(1, k_most_threads))
+      ->take_last();
   add_set_option(verb, options.settings);
   verb.add_option("--store", options.store,
                   "folder in which preparations find each other's states;\ndefault: preparation/ in the output folder")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(not_empty());
+  add_most_hours(verb, options.most_hours);
   verb.add_flag("--json", options.is_json, "the summary as JSON on stdout, nothing else there");
   verb.add_flag("-q,--quiet", options.is_quiet, "no progress, no report; errors only");
 }
@@ -101,7 +127,8 @@ void add_run(CLI::App& app) {
   const auto options = std::make_shared<RunOptions>();
   add_common(*verb, *options);
   verb->add_option("--specimen", options->specimen, "finished specimen to start from, or its folder")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(not_empty());
   verb->add_flag("-v,--verbose", options->is_verbose, "also name every stored state");
   verb->footer(
       "Example:\n"

@@ -24,6 +24,12 @@ void add_campaign(CLI::App& app);
 /// Adds --set key=value, which may be given many times.
 void add_set_option(CLI::App& verb, std::vector<std::string>& settings);
 
+/// Adds --max-hours, after which a run saves and ends.
+void add_most_hours(CLI::App& verb, double& hours);
+
+/// For names of files and folders: an empty text, as of a variable that is not set, must not mean the default.
+CLI::Validator not_empty();
+
 /// Splits "key=value" texts. Throws Error with ExitCode::usage.
 std::vector<Override> overrides_from(const std::vector<std::string>& settings);
 

@@ -44,6 +44,33 @@ TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
   }
 }
 
+TEST_F(CommandLine, StoreThatCannotBeWrittenCostsAWarningNotTheRun) {
+  write_all(folder_ / "file", "");
+  const ProgramResult result = run({"run", "tiny.toml", "-j", "1", "--store", "file"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("the run goes on, but later ones will not find its preparation"), std::string::npos);
+  const std::size_t warned = result.err.find("file/"), filled = result.err.find("\nfill ");
+  EXPECT_LT(warned, filled) << "found at the start: " << result.err;
+}
+
+TEST_F(CommandLine, ThreadsThatCannotBeStartedAreAnError) {
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const std::string command = fmt::format("ulimit -v 1500000; exec {} run tiny.toml -j 1000", DEM_PROGRAM);
+  const ProgramResult result = test::run_program({"/bin/sh", "-c", command}, folder_.path());
+  EXPECT_EQ(result.exit_code, 71) << result.err;
+  EXPECT_NE(result.err.find("of 1000 threads can be started here"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
+#endif
+}
+
+TEST_F(CommandLine, NumbersOfGrainsThatFillTooLittleAreRefused) {
+  for (const char* verb : {"check", "run"}) {
+    expect(65, "1 gravel and 0 rubber grains fill",
+           {verb, "tiny.toml", "--set", "specimen.gravel_clumps=1", "--set", "specimen.rubber_content=0"});
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
+}
+
 TEST_F(CommandLine, WrongWordsAreUsageErrors) {
   expect(64, "--help", {});
   expect(64, "--help", {"frobnicate"});
@@ -54,6 +81,8 @@ TEST_F(CommandLine, WrongWordsAreUsageErrors) {
   expect(64, "--threads", {"run", "tiny.toml", "-j", "two"});
   expect(64, "key=value", {"run", "tiny.toml", "--set", "shear.velocity"});
   expect(64, "key=value", {"run", "tiny.toml", "--set", "=3"});
+  expect(64, "the name is empty", {"run", "tiny.toml", "-o", ""});
+  expect(64, "--max-hours", {"run", "tiny.toml", "--max-hours", "0"});
   expect(64, "--keys", {"check"});
   EXPECT_FALSE(std::filesystem::exists(folder_ / "runs"));
 }
@@ -177,7 +206,11 @@ TEST_F(CommandLine, ARunTellsItsStoryAndIsNotRepeated) {
   EXPECT_EQ(text_in(answer, "state_hash"), text_in(json("runs/tiny/summary.json"), "state_hash"));
   EXPECT_EQ(std::filesystem::last_write_time(folder_ / "runs/tiny/summary.json"), written);
   EXPECT_NE(run({"run", "tiny.toml"}).out.find("is complete"), std::string::npos);
-  expect(64, "another case", {"run", "tiny.toml", "-o", "runs/tiny", "--set", "seed=4"});
+  const std::string other = run({"run", "tiny.toml", "-o", "runs/tiny", "--set", "seed=4"}).err;
+  EXPECT_NE(other.find("\n  the case has  seed = 4\n"), std::string::npos) << other;
+  EXPECT_EQ(other.find("--specimen"), std::string::npos) << other;
+  expect(64, "Its specimen would do for this case: -o NEW_FOLDER --specimen runs/tiny",
+         {"run", "tiny.toml", "-o", "runs/tiny", "--set", "shear.displacement=\"0.7 mm\""});
 
   const ProgramResult info = run({"info", "runs/tiny"});
   EXPECT_EQ(info.exit_code, 0) << info.err;

@@ -79,6 +79,54 @@ TEST_F(LongRun, TwoSignalsAtOnceAreOneRequest) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint.h5"));
 }
 
+TEST_F(LongRun, AskedForACheckpointItSavesAndGoesOn) {
+  RunningProgram job(long_run("out"), folder_.path());
+  ASSERT_TRUE(is_shearing("out"));
+  std::filesystem::remove(folder_ / "out/checkpoint.h5");
+  job.send(SIGUSR1);
+  EXPECT_TRUE(test::wait_for_file(folder_ / "out/checkpoint.h5", 20.0));
+  const auto saved = std::filesystem::last_write_time(folder_ / "out/checkpoint.h5");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(std::filesystem::last_write_time(folder_ / "out/checkpoint.h5"), saved) << "one request, one checkpoint";
+  EXPECT_EQ(text_in(json("out/status.json"), "state"), "running");
+  job.send(SIGHUP);
+  const ProgramResult stopped = job.wait();
+  EXPECT_EQ(stopped.exit_code, 75) << stopped.err;
+  EXPECT_NE(stopped.err.find("goes on from the checkpoint"), std::string::npos) << stopped.err;
+}
+
+TEST_F(LongRun, LimitsOfTimeEndItWithACheckpoint) {
+  std::vector<std::string> words = long_run("out");
+  words.insert(words.end(), {"--max-hours", "0.0005"});
+  const ProgramResult at_time = test::run_program(words, folder_.path());
+  EXPECT_EQ(at_time.exit_code, 75) << at_time.err;
+  EXPECT_NE(at_time.err.find("stopped after the hours that --max-hours allows"), std::string::npos) << at_time.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/checkpoint.h5"));
+  EXPECT_EQ(text_in(json("out/status.json"), "cause").find("stopped after the hours"), 0U);
+  RunningProgram job(long_run("other"), folder_.path());
+  ASSERT_TRUE(is_shearing("other"));
+  job.send(SIGXCPU);
+  job.send(SIGXCPU);  // as the kernel does, every second
+  const ProgramResult at_processor_limit = job.wait();
+  EXPECT_EQ(at_processor_limit.exit_code, 75) << at_processor_limit.err;
+  EXPECT_NE(at_processor_limit.err.find("processor time"), std::string::npos) << at_processor_limit.err;
+}
+
+TEST_F(LongRun, SignalsThatTheCallerIgnoresStayIgnored) {
+  // As nohup does, and a shell that puts a job into the background.
+  RunningProgram job(
+      {"/bin/sh", "-c",
+       fmt::format("trap '' INT HUP; exec {} run tiny.toml -o out -j 1 --set 'shear.velocity=1 mm/s'", DEM_PROGRAM)},
+      folder_.path());
+  ASSERT_TRUE(is_shearing("out"));
+  job.send(SIGINT);
+  job.send(SIGHUP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  EXPECT_EQ(text_in(json("out/status.json"), "state"), "running");
+  job.send(SIGTERM);
+  EXPECT_EQ(job.wait().exit_code, 75);
+}
+
 TEST_F(LongRun, KilledRunLeavesAFolderThatTheNextOneTakesOver) {
   {
     RunningProgram killed(long_run("out"), folder_.path());

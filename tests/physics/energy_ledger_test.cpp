@@ -16,17 +16,21 @@ using namespace dem::test;
 
 struct Closing {
   double work = 0.0, stored = 0.0, lost = 0.0;
+  int broken_bonds = 0;
   EnergyReport report;
 };
 
 /// Squeezes a box of 27 clumps and 8 rubber grains by 2 mm at 0.2 m/s.
-Closing squeeze_box(double friction, double local_damping, int hz_mode, double dashpot, BondForm form) {
+/// strength: of the bonds, Pa.
+Closing squeeze_box(double friction, double local_damping, int hz_mode, double dashpot, BondForm form,
+                    double strength = 3e201) {
   Scene scene = model_scene();
   scene.gravel.friction = scene.rubber.friction = friction;
   scene.integration.local_damping = local_damping;
   scene.contact.hz_mode = hz_mode;
   scene.contact.normal_damping_ratio = dashpot;
   scene.bond.form = form;
+  scene.bond.tensile_strength = scene.bond.shear_strength = strength;
   scene.shapes = {*find_clump_template("T1"), *find_clump_template("T5")};
   const double a = 5.5e-3;
   RandomSequence random(21, RandomStream::test, 0);
@@ -52,10 +56,13 @@ Closing squeeze_box(double friction, double local_damping, int hz_mode, double d
   s.walls[5].velocity = {};
   run_steps(s, 2000);
   Closing c;
+  for (int g = 0; g < s.balls.n_grains; ++g) {
+    for (int k = 0; k < k_grain_bonds; ++k) c.broken_bonds += read_bond(s, g, k).is_broken ? 1 : 0;
+  }
   c.report = s.energy();
   c.work = c.report.boundary_work;
   c.stored = c.report.kinetic + c.report.contact_strain + c.report.bond_strain;
-  c.lost = c.report.slip + c.report.dashpot + c.report.local_damping;
+  c.lost = c.report.slip + c.report.dashpot + c.report.local_damping + c.report.breakage;
   return c;
 }
 
@@ -76,6 +83,17 @@ TEST(EnergyLedger, ClosesWithFrictionAndEveryKindOfLoss) {
       EXPECT_GT(part, 0.01 * c.work);
     }
   }
+}
+
+TEST(EnergyLedger, ClosesWhileBondsBreak) {
+  const Closing c = squeeze_box(0.0, 0.0, 0, 0.1, BondForm::incremental, 0.2e6);
+  EXPECT_GT(c.broken_bonds, 100);
+  EXPECT_GT(c.report.breakage, 0.05 * c.work) << "without it the balance would be open by this";
+  EXPECT_NEAR((c.stored + c.lost) / c.work, 1.0, 0.01);
+}
+
+TEST(EnergyLedger, WholeBondsLoseNothing) {
+  EXPECT_EQ(squeeze_box(0.4, 0.2, 0, 0.1, BondForm::incremental).report.breakage, 0.0);
 }
 
 TEST(EnergyLedger, UnloadingRuleOneLosesAFewPerCentOnly) {

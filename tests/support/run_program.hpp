@@ -79,6 +79,8 @@ class RunningProgram {
     const int mode = O_WRONLY | O_CREAT | O_TRUNC;
     const bool is_ready = ::chdir(folder.c_str()) == 0 && ::dup2(::open(out.c_str(), mode, 0600), 1) == 1 &&
                           ::dup2(::open(err.c_str(), mode, 0600), 2) == 2;
+    // As in a terminal, even when the tests run in the background of a shell that ignores them.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
     if (is_ready) ::execv(words[0], words.data());
     ::_exit(127);
   }

@@ -28,6 +28,7 @@ namespace {
   ::dup2(log, STDERR_FILENO);
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  std::signal(SIGUSR1, SIG_IGN);  // until it can answer
   ::execv(arguments[0], arguments);
   ::_exit(127);
 }
@@ -66,6 +67,10 @@ void ChildProcess::ask_for_end() {
   if (pid_ <= 0 || is_asked_) return;
   is_asked_ = true;
   ::kill(pid_, SIGTERM);
+}
+
+void ChildProcess::ask_for_checkpoint() {
+  if (pid_ > 0) ::kill(pid_, SIGUSR1);
 }
 
 std::optional<ProcessEnd> ChildProcess::poll() {

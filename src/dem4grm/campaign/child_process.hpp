@@ -33,6 +33,8 @@ class ChildProcess {
 
   /// Asks for an end; a second request would end the program without its checkpoint, so there is only one.
   void ask_for_end();
+  /// By SIGUSR1, which dem4grm run understands.
+  void ask_for_checkpoint();
   /// Does not wait; nothing while it runs.
   std::optional<ProcessEnd> poll();
 

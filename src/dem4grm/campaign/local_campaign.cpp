@@ -51,6 +51,7 @@ class LocalRun {
     for (;;) {
       collect_ended();
       if (must_stop()) ask_all_for_end();
+      if (settings_.save_flag != nullptr && *settings_.save_flag != 0) ask_all_for_checkpoint();
       if (!must_stop()) start_what_can();
       if (n_running() == 0 && (must_stop() || !is_anything_left())) break;
       if (SteadyClock::now() >= next_look) {
@@ -110,6 +111,13 @@ class LocalRun {
   void ask_all_for_end() {
     for (Task& task : tasks_) {
       if (task.is_running()) task.process->ask_for_end();
+    }
+  }
+
+  void ask_all_for_checkpoint() {
+    *settings_.save_flag = 0;
+    for (Task& task : tasks_) {
+      if (task.is_running()) task.process->ask_for_checkpoint();
     }
   }
 

@@ -31,6 +31,8 @@ struct LocalSettings {
   double memory = 0.0;               ///< bytes that all tests may take together; 0: no limit
   bool retries_physics = false;      ///< also tests that failed in their physics, as they would again
   const volatile std::sig_atomic_t* stop_flag = nullptr;
+  volatile std::sig_atomic_t* save_flag =
+      nullptr;  ///< not zero: every running test is asked for a checkpoint; set back
   CampaignListener* listener = nullptr;
 };
 

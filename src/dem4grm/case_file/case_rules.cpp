@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "dem4grm/case_file/box_rules.hpp"
+#include "dem4grm/case_file/overlap_rule.hpp"
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/laws/inertial_number.hpp"
 
@@ -217,6 +218,7 @@ void check_rules(const DirectShearCase& test, const GivenKeys& given, CaseProble
   check_preparation(test, rules);
   check_shapes(test.specimen, rules);
   check_box_rules(test, rules);
+  check_overlap(test, rules);
   check_recording(test, rules);
   check_shear(test, rules);
   check_bond(test.bond, rules);

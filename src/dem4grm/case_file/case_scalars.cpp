@@ -143,7 +143,7 @@ std::optional<std::uint64_t> ScalarReader::natural(const TomlNode& node) {
   if (value) {
     fail(node, "must not be negative");
   } else {
-    wrong_kind(node, "must be a whole number");
+    wrong_kind(node, "must be a whole number from 0 to 2^63 - 1, from 2^53 on without an exponent");
   }
   return std::nullopt;
 }

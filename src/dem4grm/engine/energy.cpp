@@ -120,6 +120,7 @@ EnergyReport Simulation::energy() const {
     e.slip += ledger.grain_slip[k];
     e.dashpot += ledger.grain_dashpot[k];
     e.local_damping += ledger.grain_damping[k];
+    e.breakage += ledger.grain_breakage[k];
   }
   for (const double w : ledger.clump_damping) e.local_damping += w;
   return e;

@@ -113,6 +113,7 @@ void Simulation::place_grains() {
   ledger.grain_damping.resize(blocks * w);
   ledger.grain_dashpot.resize(blocks * w);
   ledger.grain_slip.resize(blocks * w);
+  ledger.grain_breakage.resize(blocks * w);
   grain_history.second_neighbour_shear.resize(blocks * k_grain_second_neighbours * 3 * w);
   grain_history.second_neighbour_touches.resize(blocks * k_grain_second_neighbours);
   if (scene.bond.spring_friction > 0.0 && scene.bond.hertz_contact) {

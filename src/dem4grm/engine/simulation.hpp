@@ -60,16 +60,20 @@ struct Ledger {
   double boundary = 0.0;
   double contact_slip = 0.0;
   double contact_dashpot = 0.0;
-  AlignedArray<double> grain_damping;  ///< [n_blocks * W] local damping of rubber balls
-  AlignedArray<double> grain_dashpot;  ///< [n_blocks * W] bond dashpots and intra-grain contacts
-  AlignedArray<double> grain_slip;     ///< [n_blocks * W] slip of intra-grain contacts
-  std::vector<double> clump_damping;   ///< [n_clumps]
+  AlignedArray<double> grain_damping;   ///< [n_blocks * W] local damping of rubber balls
+  AlignedArray<double> grain_dashpot;   ///< [n_blocks * W] bond dashpots and intra-grain contacts
+  AlignedArray<double> grain_slip;      ///< [n_blocks * W] slip of intra-grain contacts
+  AlignedArray<double> grain_breakage;  ///< [n_blocks * W] elastic energy of bonds that broke, see EnergyReport
+  std::vector<double> clump_damping;    ///< [n_clumps]
 };
 
 /// Energies and dissipated works, J.
 struct EnergyReport {
   double kinetic = 0.0, contact_strain = 0.0, bond_strain = 0.0;
   double boundary_work = 0.0, slip = 0.0, dashpot = 0.0, local_damping = 0.0;
+  /// What broken bonds, and what acted beside them, held in the moment in which they broke, less what the contacts hold that
+  /// took their places. Below zero when most broke in compression.
+  double breakage = 0.0;
 };
 
 /// Constants of the rubber grains of one size.

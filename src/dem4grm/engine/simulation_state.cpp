@@ -100,6 +100,7 @@ void exchange_ledger(StateArchive& archive, Ledger& l) {
   archive.exchange_fixed("grain_damping", l.grain_damping.span());
   archive.exchange_fixed("grain_dashpot", l.grain_dashpot.span());
   archive.exchange_fixed("grain_slip", l.grain_slip.span());
+  archive.exchange_fixed("grain_breakage", l.grain_breakage.span());
   archive.exchange_fixed("clump_damping", std::span(l.clump_damping));
 }
 
@@ -145,6 +146,7 @@ void exchange(StateArchive& archive, EnergyReport& e) {
   archive.exchange("slip", e.slip);
   archive.exchange("dashpot", e.dashpot);
   archive.exchange("local_damping", e.local_damping);
+  archive.exchange("breakage", e.breakage);
 }
 
 }  // namespace dem

@@ -241,6 +241,19 @@ TimeStepLimit expected_clump_limit(const Simulation& s, double stress) {
 
 double rounded_down_to_nanosecond(double t) { return std::floor(t * 1e9) * 1e-9; }
 
+double safe_share(double safety, double local_damping) {
+  constexpr double k_room = 0.88;
+  return std::min(safety, k_room / std::sqrt(1.0 + local_damping));
+}
+
+namespace {
+
+double safe_share(const Simulation& s) {
+  return dem::safe_share(s.scene.integration.time_step_safety, s.scene.integration.local_damping);
+}
+
+}  // namespace
+
 TimeStepLimit choose_time_step(const Simulation& s, double stress) {
   TimeStepLimit limit = expected_clump_limit(s, stress);
   if (s.balls.n_grains > 0) {
@@ -250,21 +263,21 @@ TimeStepLimit choose_time_step(const Simulation& s, double stress) {
   }
   const TimeStepLimit present = clump_limit(s);
   if (present.seconds < limit.seconds) limit = present;
-  return {rounded_down_to_nanosecond(s.scene.integration.time_step_safety * limit.seconds), limit.limited_by};
+  return {rounded_down_to_nanosecond(safe_share(s) * limit.seconds), limit.limited_by};
 }
 
 void review_time_step(Simulation& s, double longest) {
   const int interval = s.balls.n_grains > 0 ? k_review_interval_with_rubber : k_review_interval;
   const IntegrationSettings& settings = s.scene.integration;
   if (s.steps % interval != 0 || settings.time_step_rule == TimeStepRule::diagonal) return;
-  const double safety = settings.time_step_safety, stable = stable_time_step(s, s.dt / safety);
-  const double next = rounded_down_to_nanosecond(std::min(safety * stable, k_largest_rise * s.dt));
+  const double share = safe_share(s), stable = stable_time_step(s, s.dt / share);
+  const double next = rounded_down_to_nanosecond(std::min(share * stable, k_largest_rise * s.dt));
   if (!(next >= k_largest_fall * s.dt)) {
     throw PhysicsError(fmt::format(
         "the stiffest contacts allow a time step of {:.3g} s after {:.3g} s at the last look: they are pressed "
         "together "
         "far beyond what the stress explains (step {}). Try a smaller integration.time_step_safety or a slower motion",
-        safety * stable, s.dt, s.steps));
+        share * stable, s.dt, s.steps));
   }
   s.change_time_step(std::min(next, longest));
 }

@@ -147,6 +147,7 @@ EnergyReport ShearStage::since_start(EnergyReport e) const {
   e.slip -= start_energy_.slip;
   e.dashpot -= start_energy_.dashpot;
   e.local_damping -= start_energy_.local_damping;
+  e.breakage -= start_energy_.breakage;
   return e;
 }
 

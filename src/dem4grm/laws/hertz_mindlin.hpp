@@ -216,7 +216,7 @@ DEM_INLINE HertzGeometry hertz_geometry(const HertzPair& p, double dt) {
 }
 
 /// Elastic energy of a contact, J: (2/5) h d^(5/2) + F_s^2 / (2 k_s).
-inline double hertz_mindlin_energy(const HertzParameters& p, double overlap, const Vec3& shear) {
+DEM_INLINE double hertz_mindlin_energy(const HertzParameters& p, double overlap, const Vec3& shear) {
   if (overlap <= 0.0) return 0.0;
   const double root = std::sqrt(overlap);
   const double k_s = 1.5 * p.hertz * root * p.shear_ratio;

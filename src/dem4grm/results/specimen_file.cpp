@@ -45,6 +45,16 @@ void check_origin(const std::filesystem::path& path, const std::string& stored_c
 
 }  // namespace
 
+bool has_same_specimen(const std::string& stored_case, const DirectShearCase& test) {
+  try {
+    const LoadedCase stored = parse_case(stored_case, file_name::k_resolved);
+    const auto* made_for = std::get_if<DirectShearCase>(&stored.test);
+    return made_for != nullptr && specimen_text(*made_for) == specimen_text(test);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 void add_specimen_state(const std::filesystem::path& path, const StateArchive& state) {
   hdf5::Handle file = hdf5::open_file(path, hdf5::Access::write);
   const hdf5::Handle group = hdf5::create_group(file, k_state);

@@ -20,6 +20,9 @@ struct StoredSpecimen {
 /// Adds the complete state to a file of results. Throws IoError.
 void add_specimen_state(const std::filesystem::path& path, const StateArchive& state);
 
+/// Would a specimen of the stored case (text of a resolved.toml) do for this one? False for a text that is no case of shear.
+bool has_same_specimen(const std::string& stored_case, const DirectShearCase& test);
+
 /// The specimen of a file, or of the file specimen.h5 in a folder, for run_direct_shear. Only name, shear (but not the
 /// normal stress), record and servo.shear_speed_cap may differ from the case it was made for. Throws
 /// MissingFileError, IoError for a file without a specimen, InputError that lists every key that differs.

@@ -9,7 +9,7 @@
 
 namespace dem {
 
-inline constexpr std::int64_t k_state_format = 5;  ///< raised with every change of what is saved
+inline constexpr std::int64_t k_state_format = 6;  ///< raised with every change of what is saved
 
 /// Throws IoError.
 void write_state(const hdf5::Handle& group, const StateArchive& state);

@@ -190,8 +190,8 @@ double energy_closure_per_cent(const EnergyReport& start, const EnergyReport& en
   const double stored = (end.kinetic - start.kinetic) + (end.contact_strain - start.contact_strain) +
                         (end.bond_strain - start.bond_strain);
   const double work = end.boundary_work - start.boundary_work;
-  const double lost =
-      (end.slip - start.slip) + (end.dashpot - start.dashpot) + (end.local_damping - start.local_damping);
+  const double lost = (end.slip - start.slip) + (end.dashpot - start.dashpot) +
+                      (end.local_damping - start.local_damping) + (end.breakage - start.breakage);
   return work != 0.0 ? 100.0 * (work - stored - lost) / std::fabs(work) : 0.0;
 }
 

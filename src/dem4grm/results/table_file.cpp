@@ -12,7 +12,7 @@
 namespace dem {
 namespace {
 
-constexpr std::array<ColumnInfo, 23> k_shear_columns{{
+constexpr std::array<ColumnInfo, 24> k_shear_columns{{
     {"displacement_mm", "mm", "displacement of the halves against each other at the end of the interval"},
     {"shear_stress_kPa", "kPa", "net x-force on the walls of the lower half over the nominal area"},
     {"shear_stress_corrected_kPa", "kPa", "the same over the area that is left"},
@@ -36,9 +36,10 @@ constexpr std::array<ColumnInfo, 23> k_shear_columns{{
     {"slip_J", "J", "work lost in slip since shear began"},
     {"dashpot_J", "J", "work lost in dashpots since shear began"},
     {"local_damping_J", "J", "work lost in local damping since shear began"},
+    {"breakage_J", "J", "elastic energy lost with broken bonds since shear began"},
 }};
 
-constexpr std::array<ColumnInfo, 12> k_compression_columns{{
+constexpr std::array<ColumnInfo, 13> k_compression_columns{{
     {"strain", "1", "approach of the plates over the outer height of the grain"},
     {"displacement_mm", "mm", "approach of the plates"},
     {"load_N", "N", "mean force on both plates"},
@@ -51,6 +52,7 @@ constexpr std::array<ColumnInfo, 12> k_compression_columns{{
     {"slip_J", "J", "work lost in slip"},
     {"dashpot_J", "J", "work lost in dashpots"},
     {"local_damping_J", "J", "work lost in local damping"},
+    {"breakage_J", "J", "elastic energy lost with broken bonds"},
 }};
 
 /// Words for the walls in the order of ShearBox.
@@ -77,7 +79,7 @@ struct WallColumns {
 
 void append_energies(std::vector<double>& values, const EnergyReport& e) {
   for (const double v :
-       {e.kinetic, e.contact_strain, e.bond_strain, e.boundary_work, e.slip, e.dashpot, e.local_damping}) {
+       {e.kinetic, e.contact_strain, e.bond_strain, e.boundary_work, e.slip, e.dashpot, e.local_damping, e.breakage}) {
     values.push_back(v);
   }
 }

@@ -70,6 +70,7 @@ void describe_grains(const DirectShearCase& test, const GrainList& grains, CaseF
 CaseFacts facts_of(const DirectShearCase& test) {
   const GrainList grains =
       draw_grains(test.specimen, test.box, test.rubber.density, test.rubber_solid_density, test.seed);
+  check_fills_box(grains, test.specimen, test.box);
   CaseFacts facts;
   facts.test = "direct_shear";
   describe_grains(test, grains, facts);

@@ -8,8 +8,11 @@
 #include <system_error>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "dem4grm/case_file/case_differences.hpp"
 #include "dem4grm/results/output_file.hpp"
+#include "dem4grm/results/specimen_file.hpp"
 
 namespace dem {
 namespace {
@@ -40,9 +43,34 @@ bool is_there(const std::filesystem::path& path) {
   return status.type() != std::filesystem::file_type::not_found && status.type() != std::filesystem::file_type::none;
 }
 
-[[noreturn]] void throw_other_case(const std::filesystem::path& path) {
-  throw Error(ExitCode::usage,
-              fmt::format("{} holds another case; choose another folder with -o, or remove this one", path.string()));
+/// What is different about the case in the folder, and what a user who meant the same test would do.
+std::string other_case_message(const std::filesystem::path& path, const LoadedCase& loaded) {
+  const std::string way_out = "choose another folder with -o, or remove this one";
+  const std::optional<std::string> stored = content_of(path / file_name::k_resolved);
+  if (!stored) {
+    return fmt::format(
+        "{} holds another case, or files of a run whose {} is missing, so that nobody can tell which case "
+        "they belong to; {}",
+        path.string(), file_name::k_resolved, way_out);
+  }
+  std::vector<std::string> differences = case_differences(*stored, loaded.resolved_toml);
+  constexpr std::size_t k_most = 12;
+  if (differences.size() > k_most) {
+    const std::size_t more = differences.size() - k_most;
+    differences.resize(k_most);
+    differences.push_back(fmt::format("and {} more lines", more));
+  }
+  const auto* shear = std::get_if<DirectShearCase>(&loaded.test);
+  const bool has_specimen =
+      shear != nullptr && is_there(path / file_name::k_specimen) && has_same_specimen(*stored, *shear);
+  return fmt::format(
+      "{} holds another case:\n  {}\n{}{}", path.string(), fmt::join(differences, "\n  "), way_out,
+      has_specimen ? fmt::format(". Its specimen would do for this case: -o NEW_FOLDER --specimen {}", path.string())
+                   : "");
+}
+
+[[noreturn]] void throw_other_case(const std::filesystem::path& path, const LoadedCase& loaded) {
+  throw Error(ExitCode::usage, other_case_message(path, loaded));
 }
 
 void make_folder(const std::filesystem::path& path) {
@@ -86,12 +114,12 @@ std::filesystem::path default_folder(const std::string& case_name) {
 
 OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job)
     : path_(std::move(path)) {
-  if (look_into(path_, loaded) == FolderContent::other_case) throw_other_case(path_);
+  if (look_into(path_, loaded) == FolderContent::other_case) throw_other_case(path_, loaded);
   make_folder(path_);
   lock_ = std::make_unique<FolderLock>(path_, job);
   // Another process may have come and gone between the first look and the lock.
   found_ = look_into(path_, loaded);
-  if (found_ == FolderContent::other_case) throw_other_case(path_);
+  if (found_ == FolderContent::other_case) throw_other_case(path_, loaded);
   if (found_ == FolderContent::complete) return;
   has_checkpoint_ = found_ == FolderContent::unfinished &&
                     (is_there(file(file_name::k_checkpoint)) || is_there(file(file_name::k_previous_checkpoint)));

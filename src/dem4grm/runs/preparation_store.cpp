@@ -73,12 +73,28 @@ std::optional<StateArchive> PreparationStore::fetch(const std::string& name) con
   }
 }
 
-void PreparationStore::keep(const std::string& name, const StateArchive& state) const {
+void PreparationStore::check_writable() const {
+  make_folder();
+  const std::filesystem::path probe = draft_of("probe");
+  replace_file(probe, "");
+  std::error_code ignored;
+  std::filesystem::remove(probe, ignored);
+}
+
+void PreparationStore::make_folder() const {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw IoError(fmt::format("{}: the folder cannot be made: {}", folder_.string(), error.message()));
+}
+
+std::filesystem::path PreparationStore::draft_of(const std::string& name) const {
+  return folder_ / fmt::format("{}-{}-{}.part", name, host_name(), ::getpid());
+}
+
+void PreparationStore::keep(const std::string& name, const StateArchive& state) const {
+  make_folder();
   // A draft of its own: another process, here or on another machine, may be keeping the same state.
-  const std::filesystem::path draft = folder_ / fmt::format("{}-{}-{}.part", name, host_name(), ::getpid());
+  const std::filesystem::path draft = draft_of(name);
   write_checkpoint(draft, state, {text_, 0.0, {}});
   publish_file(draft, file_of(name));
 }

@@ -30,11 +30,16 @@ class PreparationStore {
 
   /// A state that was kept under that name; nothing when there is none, or none that can be used.
   [[nodiscard]] std::optional<StateArchive> fetch(const std::string& name) const;
+  /// Writes an empty file and removes it. Throws IoError when that fails.
+  void check_writable() const;
   /// Throws IoError when it cannot be written.
   void keep(const std::string& name, const StateArchive& state) const;
 
  private:
   [[nodiscard]] std::filesystem::path file_of(const std::string& name) const;
+  /// Of this process alone.
+  [[nodiscard]] std::filesystem::path draft_of(const std::string& name) const;
+  void make_folder() const;
 
   std::filesystem::path folder_;
   std::string text_;  ///< what a state must agree with: case and program

@@ -8,6 +8,7 @@
 
 #include "dem4grm/results/specimen_file.hpp"
 #include "dem4grm/runs/checkpoint_file.hpp"
+#include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -39,6 +40,14 @@ void check_settings(const LoadedCase& loaded, const RunSettings& settings) {
                 fmt::format("{} is no direct shear test: it has no specimen to prepare, to start from or to keep",
                             case_name(loaded.test)));
   }
+}
+
+/// Numbers of grains that the user gives and that no specimen can be made of are refused before the folder is made.
+void check_grain_numbers(const LoadedCase& loaded) {
+  const auto* test = std::get_if<DirectShearCase>(&loaded.test);
+  if (test == nullptr || (!test->specimen.gravel_clumps && !test->specimen.rubber_grains)) return;
+  check_fills_box(draw_grains(test->specimen, test->box, test->rubber.density, test->rubber_solid_density, test->seed),
+                  test->specimen, test->box);
 }
 
 /// The specimen that the user names, when the run begins at its beginning.
@@ -74,6 +83,7 @@ RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   if (auto outcome = outcome_of_complete(settings, look_into(settings.folder, loaded))) return *outcome;
   // Before anything is written: a specimen of another case must not leave a folder behind.
   std::optional<StoredSpecimen> start = chosen_specimen(loaded, settings);
+  check_grain_numbers(loaded);
   const OutputFolder folder(settings.folder, loaded, settings.job);
   if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
   std::optional<StoredCheckpoint> checkpoint;

@@ -2,6 +2,7 @@
 #include "dem4grm/runs/run_log.hpp"
 
 #include <spdlog/logger.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/basic_file_sink.h>
 
 #include <fmt/format.h>
@@ -13,7 +14,9 @@ namespace dem {
 struct RunLog::Logger {
   explicit Logger(const std::filesystem::path& path)
       : log("run", std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string())) {
-    log.set_pattern("%Y-%m-%dT%H:%M:%S.%e %l: %v");
+    // In UTC as all times in the folder; runs move between machines.
+    log.set_formatter(
+        std::make_unique<spdlog::pattern_formatter>("%Y-%m-%dT%H:%M:%S.%eZ %l: %v", spdlog::pattern_time_type::utc));
     log.flush_on(spdlog::level::info);
     log.set_error_handler([](const std::string&) {});
   }

@@ -62,6 +62,7 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
     log_.warning(text);
     warnings_.push_back(text);
   }
+  if (store_) with_store([&] { store_->check_writable(); });
   // A run that goes on keeps the old file until it knows which states to keep.
   if (!folder.has_checkpoint()) results_.emplace(folder.file(file_name::k_results), origin_of(loaded));
   status_.set_state(is_direct_shear_ ? RunState::preparing : RunState::running);
@@ -84,27 +85,32 @@ void TestWriter::progress(const Progress& now) {
   }
   status_.set_progress(now, remaining_);
   if (links_.listener != nullptr) links_.listener->progress(now);
-  if (must_stop() && !is_direct_shear_) {
-    status_.set_state(RunState::stopping, "on request");
-    throw StoppedOnRequest(ExitCode::interrupted,
-                           "stopped on request; this test keeps no checkpoint, the same command starts it anew");
+  if (const std::sig_atomic_t cause = stop_cause(); cause != k_no_stop && !is_direct_shear_) {
+    status_.set_state(RunState::stopping, stop_words(cause));
+    throw StoppedOnRequest(
+        ExitCode::interrupted,
+        fmt::format("stopped {}; this test keeps no checkpoint, the same command starts it anew", stop_words(cause)));
   }
 }
 
 bool TestWriter::wants_checkpoint(bool is_new_stage) {
-  return is_new_stage || must_stop() || seconds() - last_checkpoint_ >= links_.checkpoint_interval;
+  return is_new_stage || must_save() || stop_cause() != k_no_stop ||
+         seconds() - last_checkpoint_ >= links_.checkpoint_interval;
 }
 
 void TestWriter::checkpoint(const StateArchive& state) {
-  const bool stops = must_stop();  // asked once: a signal may come while the file is written
-  if (stops) status_.set_state(RunState::stopping, "on request");
+  const std::sig_atomic_t cause = stop_cause();  // asked once: a signal may come while the file is written
+  const bool stops = cause != k_no_stop;
+  if (stops) status_.set_state(RunState::stopping, stop_words(cause));
+  if (must_save()) *links_.save_flag = 0;
   const double begin = seconds();
   write_checkpoint(folder_.file(file_name::k_checkpoint), state, {loaded_.resolved_toml, begin, {}},
                    folder_.file(file_name::k_previous_checkpoint));
   last_checkpoint_ = seconds();
   log_.info(fmt::format("checkpoint, written in {:.2f} s", last_checkpoint_ - begin));
   if (stops) {
-    throw StoppedOnRequest(ExitCode::stopped, "stopped on request; the same command goes on from the checkpoint");
+    throw StoppedOnRequest(ExitCode::stopped,
+                           fmt::format("stopped {}; the same command goes on from the checkpoint", stop_words(cause)));
   }
 }
 
@@ -125,12 +131,22 @@ void TestWriter::resumed(const ResumedRun& past) {
   for (const MicroRow& row : past.micro_rows) micro_table_->append(micro_values(row));
 }
 
+/// A store that cannot be written must not cost the run; what it holds is used all the same.
+void TestWriter::with_store(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const IoError& e) {
+    is_store_lost_ = true;
+    warning(fmt::format("{}; the run goes on, but later ones will not find its preparation", e.what()));
+  }
+}
+
 std::optional<StateArchive> TestWriter::fetch_preparation(const std::string& name) {
   return store_ ? store_->fetch(name) : std::nullopt;
 }
 
 void TestWriter::keep_preparation(const std::string& name, const StateArchive& state) {
-  if (store_) store_->keep(name, state);
+  if (store_ && !is_store_lost_) with_store([&] { store_->keep(name, state); });
 }
 
 void TestWriter::specimen_ready(const StateArchive& state, const SpecimenReport& report) {

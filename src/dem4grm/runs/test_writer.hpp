@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -16,10 +17,11 @@
 #include "dem4grm/runs/remaining_time.hpp"
 #include "dem4grm/runs/run_log.hpp"
 #include "dem4grm/runs/status_file.hpp"
+#include "dem4grm/runs/stop_cause.hpp"
 
 namespace dem {
 
-/// The user asked for an end (SIGINT, SIGTERM). The code says whether there is a checkpoint to go on from.
+/// An end was asked for (StopCause). The code says whether there is a checkpoint to go on from.
 struct StoppedOnRequest : Error {
   using Error::Error;
 };
@@ -27,10 +29,11 @@ struct StoppedOnRequest : Error {
 /// What a run hears from outside and tells to the outside.
 struct RunLinks {
   LabObserver* listener = nullptr;                        ///< hears everything that the writer hears; may be null
-  const volatile std::sig_atomic_t* stop_flag = nullptr;  ///< not zero: stop at the next good point; may be null
+  const volatile std::sig_atomic_t* stop_flag = nullptr;  ///< a StopCause: stop at the next good point; may be null
   double checkpoint_interval = 600.0;                     ///< s of wall time between two checkpoints
   std::filesystem::path store{};                          ///< of preparations; empty: in the output folder
   bool is_specimen_only = false;                          ///< end with the finished specimen
+  volatile std::sig_atomic_t* save_flag = nullptr;        ///< not zero: write a checkpoint, set it back; may be null
 };
 
 /// The forecast of a test that has not begun.
@@ -70,9 +73,13 @@ class TestWriter : public LabObserver {
  private:
   [[nodiscard]] RunFacts facts() const;
   [[nodiscard]] double seconds() const;
-  [[nodiscard]] bool must_stop() const { return links_.stop_flag != nullptr && *links_.stop_flag != 0; }
+  [[nodiscard]] std::sig_atomic_t stop_cause() const {
+    return links_.stop_flag == nullptr ? static_cast<std::sig_atomic_t>(k_no_stop) : *links_.stop_flag;
+  }
+  [[nodiscard]] bool must_save() const { return links_.save_flag != nullptr && *links_.save_flag != 0; }
   ResultsFile& results();
   void take_row(const ShearRow& row);
+  void with_store(const std::function<void()>& write);
   void write_tables();
   void sync_tables();
   void write_profiles();
@@ -91,6 +98,7 @@ class TestWriter : public LabObserver {
   std::optional<TableFile> wall_table_;   ///< walls.csv, of a direct shear test
   std::optional<TableFile> micro_table_;  ///< micro.csv, likewise
   std::optional<PreparationStore> store_;
+  bool is_store_lost_ = false;  ///< it could not be written; the run goes on without
   bool is_direct_shear_;
   bool has_shear_begun_ = false;
   double past_wall_time_, last_checkpoint_;  ///< s of wall time, of all parts of the run

@@ -371,4 +371,20 @@ GrainList draw_grains(const SpecimenSettings& settings, const BoxSettings& box, 
   return list;
 }
 
+void check_fills_box(const GrainList& list, const SpecimenSettings& settings, const BoxSettings& box) {
+  if (!settings.gravel_clumps && !settings.rubber_grains) return;
+  double largest = list.rubber_count > 0 ? list.rubber_mean_size : 0.0;
+  for (const GravelGrain& g : list.gravel) largest = std::max(largest, g.sieve_size);
+  const double void_ratio = settings.expected_void_ratio.value_or(expected_void_ratio(settings.rubber_content));
+  const double height = list.solid_volume() * (1.0 + void_ratio) / (box.length * box.width);
+  const bool is_nominal = box.split_plane == SplitPlane::nominal;
+  const double least = is_nominal ? 0.5 * box.height + largest : 2.0 * largest;
+  if (height >= least) return;
+  throw InputError(fmt::format(
+      "grains of the specimen: {} gravel and {} rubber grains fill {:.1f} mm of the box, the least is {:.1f} mm "
+      "({}); give more grains or a lower box.height",
+      list.gravel.size(), list.rubber_count, height * 1e3, least * 1e3,
+      is_nominal ? "half of box.height and one of the largest grains" : "two of the largest grains"));
+}
+
 }  // namespace dem

@@ -31,4 +31,8 @@ namespace dem {
 GrainList draw_grains(const SpecimenSettings& settings, const BoxSettings& box, double ball_density,
                       double solid_density, std::uint64_t seed);
 
+/// Numbers of grains that the user gives must reach over the plane at which the halves part: a plate that sinks below it
+/// never meets its load. Throws InputError when they do not.
+void check_fills_box(const GrainList& list, const SpecimenSettings& settings, const BoxSettings& box);
+
 }  // namespace dem

@@ -13,6 +13,7 @@
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/specimen/fill_check.hpp"
+#include "dem4grm/specimen/specimen.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -22,6 +23,7 @@ namespace {
 /// Stress that the growing grains may exert on each other; only sets the first time step.
 constexpr double k_growth_stress = 50e3;
 constexpr double k_growth_damping = 0.7;
+const double k_growth_share = safe_share(0.8, k_growth_damping);  // of the stability limit
 
 /// Radius over that of a ball of the sphere that fills the middle of an overlapping rubber grain. Between the outer balls
 /// it stays 0.06 below what another grain's ball can touch there, so it only drives out what lies inside.
@@ -156,7 +158,7 @@ void set_scale(Simulation& s, double scale) {
 
 /// Chooses the largest time step that the present contacts allow.
 void fit_time_step(Simulation& s, double longest_step) {
-  const double present = 0.8 * clump_limit(s).seconds;
+  const double present = k_growth_share * clump_limit(s).seconds;
   s.set_time_step(std::max(rounded_down_to_nanosecond(std::min(longest_step, present)), 1e-8));
 }
 
@@ -207,13 +209,20 @@ void relax(Simulation& s, double longest_step, const FillSettings& settings, Fil
   state.steps += steps;
 }
 
-void check_inside(const Simulation& s, const Vec3& size) {
-  const int outside = first_outside(s, size);
+void check_inside(const Simulation& s, const BoxSettings& box, double height) {
+  const int outside = first_outside(s, {box.length, box.width, height});
   if (outside < 0) return;
-  throw PhysicsError(
-      fmt::format("the random fill pushed grain {} out of the box; choose another seed, a larger "
-                  "generation_void_ratio or generation = \"grown\"",
-                  outside));
+  const Vec3& p = s.clumps.clumps[static_cast<std::size_t>(outside)].position;
+  const Trouble trouble{
+      TroubleKind::outside,
+      fmt::format("clump {} left the box in the random fill: its centre is at ({:.2f}, {:.2f}, {:.2f}) mm", outside,
+                  p.x * 1e3, p.y * 1e3, p.z * 1e3),
+      p};
+  const std::string advice = advice_for(trouble, box, s.walls);
+  throw PhysicsError(trouble.text + (advice.empty()
+                                         ? ". Choose another seed, a larger generation_void_ratio or generation = "
+                                           "\"grown\""
+                                         : advice));
 }
 
 /// The grains at their first places; returns their size over the full one.
@@ -251,7 +260,7 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
   FrictionTable friction;
   for (auto& row : friction.between_grains) row.fill(settings.friction);
   s.set_friction(friction);
-  const double longest = rounded_down_to_nanosecond(0.8 * expected_clump_limit(s, k_growth_stress).seconds);
+  const double longest = rounded_down_to_nanosecond(k_growth_share * expected_clump_limit(s, k_growth_stress).seconds);
   const int growths = static_cast<int>(std::ceil((1.0 - scale) / settings.growth));
   FillState state;
   if (hooks.restore) hooks.restore(state, s);
@@ -270,7 +279,7 @@ Fill make_fill(const GrainList& grains, const BoxSettings& box, const Scene& mat
     if (hooks.between) hooks.between(share, state, s);
   }
   fill.steps = state.steps;
-  check_inside(s, {box.length, box.width, fill.height});
+  check_inside(s, box, fill.height);
   const OverlapReport overlap = worst_overlap(s);
   fill.largest_overlap = overlap.largest;
   fill.caught = overlap.caught + interlocked_balls(s, static_cast<int>(scene.shapes.size()) - 1);

@@ -31,6 +31,7 @@ class Preparation {
   Preparation(const SpecimenOrder& order, const PreparationHooks& hooks) : order_(order), hooks_(hooks) {
     out_.grains =
         draw_grains(order.specimen, order.box, order.materials.rubber.density, order.solid_density, order.seed);
+    check_fills_box(out_.grains, order.specimen, order.box);
     describe(out_.grains, order, out_.report);
     out_.report.void_ratio_generated = generation_void_ratio(order.specimen);
     out_.load = {ShearBox::k_top_plate, order.box.length * order.box.width,

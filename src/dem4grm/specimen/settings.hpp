@@ -22,7 +22,7 @@ using Grading = std::vector<GradingPoint>;
 inline constexpr double k_default_relative_density = 0.5;
 
 /// Relative density of the random fill between the laboratory's loosest and densest state of a mixture.
-inline constexpr double k_default_generation_density = 0.5;
+inline constexpr double k_default_generation_density = 0.35;
 
 /// How the grains of the random fill come to their places (specimen/fill.hpp).
 enum class Generation : std::uint8_t { grown, overlapping };

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -19,6 +20,7 @@ struct LaboratoryRange {
 
 constexpr std::array<LaboratoryRange, 5> k_laboratory{
     {{0.0, 0.725, 0.545}, {0.10, 0.778, 0.561}, {0.25, 0.818, 0.577}, {0.40, 0.912, 0.590}, {1.0, 1.272, 0.787}}};
+constexpr double k_least_of_spheres = 0.9;
 constexpr double k_expected_gravel = 0.534;
 constexpr double k_expected_rubber = 0.782;
 
@@ -41,8 +43,13 @@ double laboratory_void_ratio(double rubber_content, double relative_density) {
 }
 
 double generation_void_ratio(const SpecimenSettings& settings) {
-  return settings.generation_void_ratio.value_or(
-      laboratory_void_ratio(settings.rubber_content, settings.generation_relative_density));
+  if (settings.generation_void_ratio) return *settings.generation_void_ratio;
+  const double density = settings.generation_relative_density;
+  const double laboratory = laboratory_void_ratio(settings.rubber_content, density);
+  const auto is_sphere = [](const std::string& shape) { return shape == "sphere"; };
+  if (!std::all_of(settings.clump_shapes.begin(), settings.clump_shapes.end(), is_sphere)) return laboratory;
+  const double lacking = std::max(0.0, k_least_of_spheres - laboratory_void_ratio(0.0, density));
+  return laboratory + (1.0 - settings.rubber_content) * lacking;
 }
 
 double expected_void_ratio(double rubber_content) {

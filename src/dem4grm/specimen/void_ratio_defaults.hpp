@@ -14,7 +14,8 @@ namespace dem {
 double laboratory_void_ratio(double rubber_content, double relative_density);
 
 /// Void ratio of the random fill, dimensionless: the case's own, or the laboratory's at the case's
-/// generation_relative_density. Throws InputError when the rubber content is outside 0 to 1.
+/// generation_relative_density. Spheres jam before clumps do, so gravel of spheres alone adds what takes a fill without
+/// rubber to 0.9 at least, in proportion to its share. Throws InputError when the rubber content is outside 0 to 1.
 double generation_void_ratio(const SpecimenSettings& settings);
 
 /// Void ratio after compression that the number of grains is made for, dimensionless: linear in rubber content from

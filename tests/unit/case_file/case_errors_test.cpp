@@ -170,6 +170,18 @@ TEST(CaseErrors, DensityOrFriction) {
             "2:1: error: unknown key \"dr\" in [specimen]; did you mean \"relative_density\"?");
 }
 
+TEST(CaseErrors, OverlapsThatFollowFromStressAndModulus) {
+  EXPECT_EQ(
+      mistake("gravel", "shear_modulus = \"50 kPa\""),
+      "7:17: error: gravel.shear_modulus = 50 kPa under a normal stress of 60 kPa makes balls overlap by about 2.3 of "
+      "their radius: grains would pass through each other");
+  const std::vector<std::string> warnings =
+      parse_case(with("gravel", "shear_modulus = \"1 MPa\""), "case.toml").warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("overlap by about 0.32 of their radius"), std::string::npos) << warnings[0];
+  EXPECT_TRUE(parse_case(with("gravel", "shear_modulus = \"20 MPa\""), "case.toml").warnings.empty());
+}
+
 TEST(CaseErrors, RulesBetweenKeys) {
   EXPECT_EQ(mistake("box", "width = \"16 mm\""),
             "6:9: error: box.width = 16 mm is less than 2 of the largest grains (8.5 mm): at least 17 mm");

@@ -12,6 +12,7 @@
 
 #include "dem4grm/core/random.hpp"
 #include "dem4grm/engine/time_step.hpp"
+#include "dem4grm/laws/local_damping.hpp"
 #include "support/grain_statics.hpp"
 #include "support/pressed_sphere.hpp"
 
@@ -253,6 +254,29 @@ TEST(ClumpTimeStep, OfTheLoadToCome) {
   EXPECT_NEAR(expected_clump_limit(s, 100e3).seconds, 2 / std::sqrt(2 * stiffness / mass), 1e-9);
   // Stiffness goes with the cube root of the stress, the step with its sixth.
   EXPECT_NEAR(expected_clump_limit(s, 6.4e6).seconds / expected_clump_limit(s, 100e3).seconds, 0.5, 1e-9);
+}
+
+/// Largest excursion of m x'' = -k x with local damping after many leapfrog steps of `share` of 2 / sqrt(k/m).
+double excursion_after(double share, double damping) {
+  double x = 1.0, v = 0.1;
+  const double dt = 2.0 * share;
+  for (int k = 0; k < 3000 && std::fabs(x) < 1e6; ++k) {
+    v += dt * locally_damped(-x, v, damping);
+    x += dt * v;
+  }
+  return std::fabs(x);
+}
+
+TEST(SafeShare, LocalDampingLowersTheLimit) {
+  for (const double damping : {0.0, 0.05, 0.2, 0.5, 0.7, 0.9}) {
+    const double limit = 1.0 / std::sqrt(1.0 + damping);
+    EXPECT_GT(excursion_after(1.02 * limit, damping), 1e5) << damping;
+    EXPECT_LT(excursion_after(0.98 * limit, damping), damping > 0.0 ? 1e-6 : 10.0) << damping;
+    EXPECT_LE(safe_share(1.0, damping), 0.881 * limit);
+  }
+  EXPECT_EQ(safe_share(0.8, 0.2), 0.8) << "the published damping";
+  EXPECT_EQ(safe_share(0.5, 0.7), 0.5);
+  EXPECT_NEAR(safe_share(0.8, 0.7), 0.6749, 1e-4);
 }
 
 TEST(ChosenTimeStep, IsTheSafeShareOfTheSmallestLimitInWholeNanoseconds) {

@@ -37,7 +37,7 @@ ShearRow sample_row() {
   row.time_step = 4.25e-6;
   row.normal_stress_corrected = 101e3;
   row.dilatancy = {0.75, 0.25, 0.5};
-  row.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+  row.energy = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
   row.wall_force[ShearBox::k_top_plate] = {1.5, -2.5, 1000.0};
   row.wall_force[ShearBox::k_top_plate + ShearBox::k_side_y_max] = {0.0, 42.0, 0.0};
   return row;
@@ -52,7 +52,7 @@ TEST(Table, HeaderOfShearBeginsAsPromised) {
       "void_ratio,inertial_number,unbalanced_ratio,half_force_imbalance,plate_shear_stress_kPa,normal_stress_worst_"
       "kPa,";
   EXPECT_EQ(header.substr(0, promised.size()), promised);
-  EXPECT_TRUE(header.ends_with("local_damping_J\n"));
+  EXPECT_TRUE(header.ends_with("breakage_J\n"));
 }
 
 TEST(Table, EveryColumnHasUnitInNameAndDescription) {
@@ -103,7 +103,7 @@ TEST(Table, RowsAreInTheFileAtOnceInShortestNumbers) {
   const std::string row = text.substr(text.find('\n') + 1);
   EXPECT_EQ(row,
             "0.01,61.2345,62,100,-0.002,0.65,3e-05,0.30000000000000004,0.25,0.3333333333333333,99,4.25,"
-            "101,0.75,0.25,0.5,1,2,3,4,5,6,7\n");
+            "101,0.75,0.25,0.5,1,2,3,4,5,6,7,8\n");
   EXPECT_EQ(table.rows(), 1U);
   EXPECT_EQ(table.values_of(1).front(), 61.2345);
 }

@@ -152,6 +152,25 @@ void add_broken_pair(const Simulation& s, const RubberSize& size, const BondMoti
   losses.dashpot[lane] += f.dashpot_work;
 }
 
+/// Energy that leaves with a bond, J (EnergyReport::breakage). The contact that takes its place begins without shear.
+DEM_INLINE double energy_of_breaking(const Simulation& s, const RubberSize& size, std::size_t bond_row,
+                                     const Vec3& branch, const BondHistory& history) {
+  constexpr std::size_t w = k_lanes;
+  const double length = std::sqrt(dot(branch, branch)), overlap = 2.0 * size.ball_radius - length;
+  const double taken_over = hertz_mindlin_energy(size.second_neighbour, overlap, {});
+  double held = bond_energy(size.bond, length, history.shear, history.moment, branch * (1.0 / length));
+  if (!s.grain_history.companion_shear.empty()) {
+    const double* h = s.grain_history.companion_shear.data() + bond_row;
+    const Vec3 shear{h[0], h[w], h[2 * w]};
+    if (s.scene.bond.hertz_contact) {
+      held += hertz_mindlin_energy(size.second_neighbour, overlap, shear);
+    } else if (size.bond.linear_shear_stiffness > 0.0) {
+      held += 0.5 * dot(shear, shear) / size.bond.linear_shear_stiffness;
+    }
+  }
+  return held - taken_over;
+}
+
 template <HertzOptions options>
 void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLosses& losses) {
   constexpr std::size_t w = k_lanes;
@@ -177,6 +196,8 @@ void add_incremental(Simulation& s, std::size_t block, BlockForces& out, BlockLo
           continue;
         }
         broken[lane] = 1;
+        s.ledger.grain_breakage[block * w + lane] +=
+            energy_of_breaking(s, size, (block * k_grain_bonds + k) * 3 * w + lane, m.branch, history);
         for (std::size_t c = 0; c < 6; ++c) h[c * w] = 0.0;
       }
       add_broken_pair<options>(s, size, m, h, pair, lane, out, losses);
