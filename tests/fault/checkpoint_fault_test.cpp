@@ -75,6 +75,21 @@ TEST_F(CheckpointFault, WhateverCallIsHitAWholeGenerationIsLeft) {
   }
 }
 
+TEST_F(CheckpointFault, IsOnTheDiskBeforeItGetsItsName) {
+  write(1.0);
+  write(2.0);
+  const std::string calls = test::run_with_fault(Fault::kill, 1 << 30, [&] { write(3.0); }).calls;
+  const std::size_t last_write = calls.rfind("write"), first_rename = calls.find("rename "),
+                    last_rename = calls.rfind("rename ");
+  ASSERT_NE(first_rename, std::string::npos) << calls;
+  EXPECT_LT(first_rename, last_rename) << "the older name, then the newer";
+  EXPECT_LT(last_write, first_rename);
+  const std::size_t synced = calls.find("fsync ", last_write);
+  EXPECT_LT(synced, first_rename) << "what a power cut would leave under the name: " << calls.substr(last_write);
+  EXPECT_NE(calls.find("fsync ", last_rename), std::string::npos)
+      << "the names themselves: " << calls.substr(last_write);
+}
+
 TEST_F(CheckpointFault, ADamagedNewestOneDoesNotReplaceTheWholeOneBeforeIt) {
   for (int at = 1;; ++at) {
     clean();

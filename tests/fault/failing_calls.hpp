@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 namespace dem::test {
 
@@ -16,6 +17,7 @@ struct FaultEnd {
   bool was_due = false;  ///< the chosen call came
   bool was_killed = false;
   int exit_code = 0;  ///< of the work: 0, or the exit code of the Error that it threw
+  std::string calls;  ///< names of the calls up to its end, in order, a space behind each
 };
 
 /// Runs the work in a child process whose call number `at` (from 1) of the ones above is hit by the fault.

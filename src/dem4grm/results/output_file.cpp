@@ -16,7 +16,13 @@
 namespace dem {
 namespace {
 
-constexpr int k_file_mode = 0644;
+constexpr int k_file_mode = 0666;  // less what the user's umask takes away
+
+/// A new file at a place where one of an earlier process may lie. A link that somebody put there is not followed.
+int open_draft(const std::filesystem::path& draft) {
+  ::unlink(draft.c_str());
+  return ::open(draft.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, k_file_mode);
+}
 
 /// Writes everything; false with errno set when it cannot.
 bool write_all(int descriptor, std::string_view text) {
@@ -77,10 +83,19 @@ void throw_io_error(const std::filesystem::path& path, std::string_view what) {
 void replace_file(const std::filesystem::path& path, std::string_view text) {
   std::filesystem::path draft = path;
   draft += ".tmp";
-  const int descriptor = ::open(draft.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, k_file_mode);
+  const int descriptor = open_draft(draft);
   if (descriptor < 0) throw_io_error(path, "cannot be written");
   fill_and_close(descriptor, draft, text);
   rename_draft(draft, path);
+}
+
+bool overwrite_file(const std::filesystem::path& path, std::string text) {
+  const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  const off_t present = ::lseek(descriptor, 0, SEEK_END);
+  if (present > static_cast<off_t>(text.size())) text.append(static_cast<std::size_t>(present) - text.size(), ' ');
+  const bool is_good = ::lseek(descriptor, 0, SEEK_SET) == 0 && write_all(descriptor, text);
+  return ::close(descriptor) == 0 && is_good;
 }
 
 void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path,

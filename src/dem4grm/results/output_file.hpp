@@ -15,6 +15,10 @@ namespace dem {
 /// text or the new one. Throws IoError and leaves the old file.
 void replace_file(const std::filesystem::path& path, std::string_view text);
 
+/// Writes text over what a file holds, with spaces up to its old length: for a full disk, which has the place of the old text
+/// but none for a new file. A reader may see half of it. False when it cannot be written.
+bool overwrite_file(const std::filesystem::path& path, std::string text);
+
 /// Brings a draft that was written beside `path` to the disk and gives it that name, then the folder to the disk. With
 /// `older` the file that has the name now gets that one first. Throws IoError, leaves the old file and removes the draft.
 void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path,

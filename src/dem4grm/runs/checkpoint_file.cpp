@@ -59,10 +59,11 @@ void write_checkpoint(const std::filesystem::path& path, const StateArchive& sta
                       const std::filesystem::path& older) {
   std::filesystem::path draft = path;
   draft += ".tmp";
+  std::error_code ignored;
+  std::filesystem::remove(draft, ignored);  // a link that somebody put there would be followed
   try {
     naming_file(path, [&] { write_draft(draft, state, facts); });
   } catch (const IoError&) {
-    std::error_code ignored;
     std::filesystem::remove(draft, ignored);
     throw;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dem4grm/runs/output_folder.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -112,11 +113,29 @@ std::filesystem::path default_folder(const std::string& case_name) {
   return std::filesystem::path("runs") / name;
 }
 
+namespace {
+
+/// What killed processes left half written; the folder is locked, so nobody is at work on them.
+void remove_drafts(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error), end;
+  for (; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const bool is_ours = std::any_of(k_results_of_run.begin(), k_results_of_run.end(),
+                                     [&](const char* ours) { return name == std::string(ours) + ".tmp"; });
+    std::error_code ignored;
+    if (is_ours) std::filesystem::remove(entry->path(), ignored);
+  }
+}
+
+}  // namespace
+
 OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job)
     : path_(std::move(path)) {
   if (look_into(path_, loaded) == FolderContent::other_case) throw_other_case(path_, loaded);
   make_folder(path_);
   lock_ = std::make_unique<FolderLock>(path_, job);
+  remove_drafts(path_);
   // Another process may have come and gone between the first look and the lock.
   found_ = look_into(path_, loaded);
   if (found_ == FolderContent::other_case) throw_other_case(path_, loaded);

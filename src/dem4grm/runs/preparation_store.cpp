@@ -5,8 +5,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <csignal>
 #include <fstream>
 #include <iterator>
+#include <regex>
+#include <string>
 
 #include "dem4grm/case_file/case_file.hpp"
 #include "dem4grm/core/error.hpp"
@@ -73,8 +77,25 @@ std::optional<StateArchive> PreparationStore::fetch(const std::string& name) con
   }
 }
 
+/// What processes of this machine that are no more left half written.
+void PreparationStore::remove_dead_drafts() const {
+  const std::regex draft("-" + std::regex_replace(host_name(), std::regex("[^A-Za-z0-9-]"), ".") +
+                         "-([0-9]{1,9})\\.part$");
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder_, error), end;
+  for (; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::smatch found;
+    if (!std::regex_search(name, found, draft)) continue;
+    const bool is_dead = ::kill(static_cast<pid_t>(std::stol(found[1])), 0) != 0 && errno == ESRCH;
+    std::error_code ignored;
+    if (is_dead) std::filesystem::remove(entry->path(), ignored);
+  }
+}
+
 void PreparationStore::check_writable() const {
   make_folder();
+  remove_dead_drafts();
   const std::filesystem::path probe = draft_of("probe");
   replace_file(probe, "");
   std::error_code ignored;

@@ -30,7 +30,8 @@ class PreparationStore {
 
   /// A state that was kept under that name; nothing when there is none, or none that can be used.
   [[nodiscard]] std::optional<StateArchive> fetch(const std::string& name) const;
-  /// Writes an empty file and removes it. Throws IoError when that fails.
+  /// Writes an empty file and removes it, and the drafts of processes of this machine that have died. Throws IoError when
+  /// the store cannot be written.
   void check_writable() const;
   /// Throws IoError when it cannot be written.
   void keep(const std::string& name, const StateArchive& state) const;
@@ -40,6 +41,7 @@ class PreparationStore {
   /// Of this process alone.
   [[nodiscard]] std::filesystem::path draft_of(const std::string& name) const;
   void make_folder() const;
+  void remove_dead_drafts() const;
 
   std::filesystem::path folder_;
   std::string text_;  ///< what a state must agree with: case and program

@@ -68,7 +68,14 @@ void StatusFile::write() {
   status.push_back({"eta_is_lower_bound", is_known && forecast_.is_lower_bound});
   status.push_back({"cause", cause_.empty() ? JsonValue() : JsonValue(cause_)});
   status.push_back({"exit_code", exit_code_ ? JsonValue(static_cast<int>(*exit_code_)) : JsonValue()});
-  replace_file(path_, json_text(status));
+  const std::string text = json_text(status);
+  try {
+    replace_file(path_, text);
+  } catch (const IoError&) {
+    // The last word of a run must be true on a full disk too.
+    const bool is_last = state_ == RunState::failed || state_ == RunState::stopped;
+    if (!is_last || !overwrite_file(path_, text)) throw;
+  }
   written_ = now;
 }
 

@@ -21,7 +21,8 @@ using Grading = std::vector<GradingPoint>;
 /// Target of the search when a case names neither a relative density nor a preparation friction (Chew et al. 2022).
 inline constexpr double k_default_relative_density = 0.5;
 
-/// Relative density of the random fill between the laboratory's loosest and densest state of a mixture.
+/// Relative density of the random fill between the laboratory's loosest and densest state of a mixture, fitted
+/// to the void ratios of gravel alone and rubber alone (docs/decisions/0025-generation-density.md).
 inline constexpr double k_default_generation_density = 0.35;
 
 /// How the grains of the random fill come to their places (specimen/fill.hpp).

@@ -3,12 +3,14 @@
 #include "dem4grm/runs/preparation_store.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <vector>
 
+#include "dem4grm/runs/folder_lock.hpp"
 #include "dem4grm/specimen/branch_words.hpp"
 #include "support/run_program.hpp"
 
@@ -114,6 +116,24 @@ TEST_F(PreparationStoreTest, PassesOverDamagedFiles) {
   EXPECT_FALSE(store.fetch("fill"));
   store.keep("fill", some_state(0.4));
   EXPECT_EQ(number_in_state(store.fetch("fill")), 0.4);
+}
+
+TEST_F(PreparationStoreTest, DraftsOfTheDeadAreRemovedThoseOfTheLivingStay) {
+  const PreparationStore store(folder_, any_case());
+  store.keep("fill", some_state(0.3));
+  const std::filesystem::path place = std::filesystem::directory_iterator(folder_)->path();
+  const auto draft = [&](const std::string& host, int process) {
+    std::filesystem::path path = place / ("fill-" + host + "-" + std::to_string(process) + ".part");
+    test::write_all(path, "half");
+    return path;
+  };
+  const auto dead = draft(host_name(), 999999999), alive = draft(host_name(), ::getpid()),
+             elsewhere = draft("other", 999999999);
+  store.check_writable();
+  EXPECT_FALSE(std::filesystem::exists(dead));
+  EXPECT_TRUE(std::filesystem::exists(alive));
+  EXPECT_TRUE(std::filesystem::exists(elsewhere));
+  EXPECT_TRUE(store.fetch("fill"));
 }
 
 }  // namespace
