@@ -120,11 +120,31 @@ bool is_in_one_of(std::span<const Bounds> rooms, const Vec3& p) {
 
 }  // namespace
 
+bool has_only_numbers(const Simulation& s) {
+  // 0 x is 0 for a finite x and no number for all others.
+  constexpr std::size_t k_lines = 8;
+  const std::span<const double> state = s.balls.state.span();
+  double zero[k_lines] = {};
+  const std::size_t whole = state.size() - state.size() % k_lines;
+  for (std::size_t k = 0; k < whole; k += k_lines) {
+    for (std::size_t lane = 0; lane < k_lines; ++lane) zero[lane] += 0.0 * state[k + lane];
+  }
+  double sum = s.ledger.boundary + s.ledger.contact_slip + s.ledger.contact_dashpot;
+  for (std::size_t k = whole; k < state.size(); ++k) sum += 0.0 * state[k];
+  for (const double z : zero) sum += z;
+  for (const Wall& wall : s.walls) {
+    const Vec3 at = wall.corner + wall.velocity;
+    sum += at.x + at.y + at.z;
+  }
+  return std::isfinite(sum);
+}
+
 Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double overlap_limit) {
   for (int id = 0; id < s.balls.n_balls(); ++id) {
     const int i = s.balls.index_of_id(id);
     const Vec3 p = s.balls.position(i), v = s.balls.velocity(i), w = s.balls.spin(i);
-    if (!std::isfinite(p.x + p.y + p.z + v.x + v.y + v.z + w.x + w.y + w.z)) {
+    const Quaternion q = id < s.balls.n_rubber_balls() ? s.balls.orientation(i) : Quaternion{};
+    if (!std::isfinite(p.x + p.y + p.z + v.x + v.y + v.z + w.x + w.y + w.z + q.w + q.x + q.y + q.z)) {
       return {TroubleKind::no_number,
               fmt::format("{} has a position or velocity that is no number", s.name_of_ball(id)), p};
     }
@@ -134,6 +154,16 @@ Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double 
                           p.x * 1e3, p.y * 1e3, p.z * 1e3),
               p};
     }
+  }
+  for (const Wall& wall : s.walls) {
+    const Vec3 at = wall.corner + wall.velocity;
+    if (!std::isfinite(at.x + at.y + at.z)) {
+      return {
+          TroubleKind::no_number, fmt::format("the {} has a position or velocity that is no number", wall.name), {}};
+    }
+  }
+  if (!std::isfinite(s.ledger.boundary + s.ledger.contact_slip + s.ledger.contact_dashpot)) {
+    return {TroubleKind::no_number, "the work of the walls or of slip is no number", {}};
   }
   const OverlapReport o = worst_overlap(s);
   if (o.largest <= overlap_limit) return {};

@@ -45,6 +45,10 @@ struct Trouble {
   Vec3 place;        ///< m, of a ball outside
 };
 
+/// Is every number of the balls, walls and works finite? Forces and histories that are not, reach the velocities within a step. As fast
+/// as memory is read, so it can be asked often.
+bool has_only_numbers(const Simulation& s);
+
 /// A value that is no number, a ball whose centre lies in none of the rooms, an overlap beyond the limit (over the smaller
 /// radius).
 Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double overlap_limit);

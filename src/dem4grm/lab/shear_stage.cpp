@@ -21,7 +21,8 @@
 namespace dem {
 namespace {
 
-constexpr int k_watch_interval = 500;  // steps between two looks of the watchdog
+constexpr int k_watch_interval = 500;    // steps between two looks of the watchdog
+constexpr int k_numbers_interval = 100;  // between two quick ones, for values that are no number
 /// The halves reach their velocity over this displacement, so that the start is no blow.
 constexpr double k_start_ramp = 2e-5;  // m
 /// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
@@ -66,7 +67,7 @@ void ShearStage::run(StateArchive* from) {
   while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
     advance();
     const bool is_watched = ++shear_steps_ % k_watch_interval == 0;
-    if (is_watched) watch();
+    if (is_watched || (shear_steps_ % k_numbers_interval == 0 && !has_only_numbers(s_))) watch();
     if (displacement_ >= next_row_at() * (1.0 - 1e-12)) {
       finish_row();
       if (has_reached(frames_, next_frame_)) write_frame();

@@ -80,7 +80,7 @@ std::optional<StateArchive> PreparationStore::fetch(const std::string& name) con
 /// What processes of this machine that are no more left half written.
 void PreparationStore::remove_dead_drafts() const {
   const std::regex draft("-" + std::regex_replace(host_name(), std::regex("[^A-Za-z0-9-]"), ".") +
-                         "-([0-9]{1,9})\\.part$");
+                         "-([0-9]{1,9})\\.part(\\.tmp)?$");
   std::error_code error;
   std::filesystem::directory_iterator entry(folder_, error), end;
   for (; !error && entry != end; entry.increment(error)) {

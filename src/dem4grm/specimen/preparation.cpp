@@ -300,7 +300,7 @@ class Preparation {
     bring_to_rest(s, out_.load, equilibrium, rest_, [&] {
       static_assert(k_review_interval % k_rest_interval == 0 && k_review_interval_with_rubber % k_rest_interval == 0);
       review_time_step(s, out_.report.time_step.seconds);
-      if (rest_.steps % (5 * k_rest_interval) == 0) {
+      if (rest_.steps % (5 * k_rest_interval) == 0 || !has_only_numbers(s)) {
         const Trouble trouble = find_trouble(s, ShearBox::rooms_of(s.walls), k_overlap_limit);
         if (trouble.kind != TroubleKind::none) {
           throw PhysicsError(fmt::format("{} (stage {}, step {}){}", trouble.text, label(), rest_.steps,

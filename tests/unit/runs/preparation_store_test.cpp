@@ -127,10 +127,13 @@ TEST_F(PreparationStoreTest, DraftsOfTheDeadAreRemovedThoseOfTheLivingStay) {
     test::write_all(path, "half");
     return path;
   };
+  const auto draft_of_draft = place / ("fill-" + host_name() + "-999999998.part.tmp");
+  test::write_all(draft_of_draft, "half");
   const auto dead = draft(host_name(), 999999999), alive = draft(host_name(), ::getpid()),
              elsewhere = draft("other", 999999999);
   store.check_writable();
   EXPECT_FALSE(std::filesystem::exists(dead));
+  EXPECT_FALSE(std::filesystem::exists(draft_of_draft));
   EXPECT_TRUE(std::filesystem::exists(alive));
   EXPECT_TRUE(std::filesystem::exists(elsewhere));
   EXPECT_TRUE(store.fetch("fill"));
