@@ -8,6 +8,7 @@ from the side. Needs python3-h5py and python3-matplotlib; reads shear.csv or gra
 """
 import argparse
 import pathlib
+import sys
 
 import h5py
 import matplotlib
@@ -143,12 +144,16 @@ def main():
     parser.add_argument("-o", "--output", type=pathlib.Path, help="picture to write (default: FOLDER/run.png)")
     parser.add_argument("--at", type=float, default=8.0, help="displacement of the drawn state, mm")
     options = parser.parse_args()
+    if read_json(options.folder) is None:
+        print(f"{options.folder}: no summary.json, so the run is not finished; the same dem4grm command goes on", file=sys.stderr)
+        return 66
     is_shear = (options.folder / "shear.csv").exists()
     figure = draw_shear(options.folder, options.at) if is_shear else draw_compression(options.folder)
     target = options.output or options.folder / "run.png"
     figure.savefig(target, dpi=110)
     print(target)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "dem4grm/case_file/case_scalars.hpp"
 #include "dem4grm/case_file/clump_file.hpp"
@@ -149,7 +150,12 @@ class ValueReader {
   }
 
   bool read_grading(const GradingSlot& slot) {
-    return read_file(*slot.file, read_grading_file, [&](GradingFile& file) { *slot.points = std::move(file.points); });
+    return read_file(*slot.file, read_grading_file, [&](GradingFile& file) {
+      *slot.points = std::move(file.points);
+      if (file.notes.empty() || !file.problems.empty()) return;
+      problems_.warning(node_.place, fmt::format("{}: {} is not in our form and was understood as: {}", key_.path(),
+                                                 node_.text, fmt::join(file.notes, "; ")));
+    });
   }
 
   bool inline_grading(const GradingSlot& slot) {

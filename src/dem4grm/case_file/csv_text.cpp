@@ -12,11 +12,14 @@ namespace dem {
 
 CsvText::CsvText(std::string_view text, std::string_view name) : name_(name), lines_(split_lines(text)) {}
 
-std::vector<CsvField> CsvText::fields_of(std::size_t line) const {
-  const std::string_view text = lines_[line];
+std::vector<CsvField> CsvText::fields_of(std::size_t line, char separator) const {
+  return fields_of_line(lines_[line], separator);
+}
+
+std::vector<CsvField> fields_of_line(std::string_view text, char separator) {
   std::vector<CsvField> fields;
   for (std::size_t begin = 0; begin <= text.size();) {
-    std::size_t end = std::min(text.find(',', begin), text.size());
+    std::size_t end = std::min(text.find(separator, begin), text.size());
     const std::size_t next = end + 1;
     while (begin < end && (text[begin] == ' ' || text[begin] == '\t')) ++begin;
     while (end > begin && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;

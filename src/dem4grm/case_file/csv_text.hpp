@@ -15,13 +15,16 @@ struct CsvField {
   std::size_t begin = 0;  ///< bytes from the beginning of the line
 };
 
+/// A line cut at the separator.
+std::vector<CsvField> fields_of_line(std::string_view line, char separator);
+
 class CsvText {
  public:
   /// `text` must outlive this object; `name` is the file in messages.
   CsvText(std::string_view text, std::string_view name);
 
   [[nodiscard]] std::size_t line_count() const { return lines_.size(); }
-  [[nodiscard]] std::vector<CsvField> fields_of(std::size_t line) const;
+  [[nodiscard]] std::vector<CsvField> fields_of(std::size_t line, char separator = ',') const;
   /// The whole line as one field.
   [[nodiscard]] CsvField whole(std::size_t line) const { return {lines_[line], 0}; }
 

@@ -2,6 +2,7 @@
 // Reading and checking of gradings.
 #include "dem4grm/case_file/grading_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "dem4grm/case_file/csv_text.hpp"
+#include "dem4grm/case_file/grading_dialect.hpp"
 #include "dem4grm/case_file/text_file.hpp"
 #include "dem4grm/case_file/toml_scan.hpp"
 #include "dem4grm/core/quantity.hpp"
@@ -32,10 +34,11 @@ class GradingReader {
 
   GradingFile run() {
     for (std::size_t i = 0; i < text_.line_count(); ++i) {
-      const std::vector<CsvField> fields = text_.fields_of(i);
-      if (is_blank_or_comment(fields)) continue;
+      std::vector<CsvField> fields = text_.fields_of(i, dialect_.separator);
+      while (fields.size() > 2 && fields.back().text.empty()) fields.pop_back();  // as spreadsheets leave them
+      if (is_blank_or_comment(fields) || std::all_of(fields.begin(), fields.end(), is_empty)) continue;
       if (!has_header_) {
-        take_header(i, fields);
+        take_header(i);
       } else if (result_.points.size() < k_most_grading_rows) {
         take_row(i, fields);
       } else {
@@ -43,37 +46,67 @@ class GradingReader {
         break;
       }
     }
+    if (result_.problems.empty()) put_in_order();
     // Rules between rows say nothing useful about a table with holes.
     if (result_.problems.empty()) report_faults();
     return std::move(result_);
   }
 
  private:
-  void take_header(std::size_t line, const std::vector<CsvField>& fields) {
+  static bool is_empty(const CsvField& field) { return field.text.empty(); }
+
+  void take_header(std::size_t line) {
     has_header_ = true;
-    const bool is_right =
-        fields.size() == 2 && fmt::format("{},{}", fields[0].text, fields[1].text) == k_grading_header;
-    if (!is_right) {
-      problem(line, text_.whole(line), fmt::format("the first line must be the header \"{}\"", k_grading_header),
-              "a table of sieve size in mm and per cent passing by mass");
+    std::string_view header = text_.whole(line).text;
+    while (header.ends_with(',')) header.remove_suffix(1);
+    if (std::optional<GradingDialect> dialect = grading_dialect(header)) {
+      dialect_ = std::move(*dialect);
+      result_.notes = dialect_.notes;
+      return;
     }
+    problem(line, text_.whole(line), fmt::format("the first line must be the header \"{}\"", k_grading_header),
+            "or one that names a size with its unit and a share: passing, finer or cumulative retained; percent or "
+            "fraction");
+  }
+
+  std::optional<double> number(const CsvField& field, int exponent) const {
+    std::string text(field.text);
+    if (dialect_.has_decimal_commas && std::count(text.begin(), text.end(), ',') == 1) {
+      std::replace(text.begin(), text.end(), ',', '.');
+    }
+    return parse_decimal(text, exponent);
   }
 
   void take_row(std::size_t line, const std::vector<CsvField>& fields) {
     if (fields.size() != 2) {
       const bool has_semicolon = text_.whole(line).text.find(';') != std::string_view::npos;
       problem(line, text_.whole(line), fmt::format("{} instead of 2 numbers", fields.size()),
-              has_semicolon ? "separate the numbers by a comma and write decimals with a point"
-                            : "sieve size in mm, per cent passing by mass");
+              has_semicolon
+                  ? "separate the columns in the header by what separates them here"
+                  : "sieve size, share passing by mass; decimal commas need semicolons or tabs between columns");
       return;
     }
-    const std::optional<double> size = parse_decimal(fields[0].text, -3);
-    const std::optional<double> passing = parse_decimal(fields[1].text, -2);
-    if (!size) problem(line, fields[0], not_a_number(fields[0]), "sieve size in mm");
-    if (!passing) problem(line, fields[1], not_a_number(fields[1]), "per cent passing by mass");
+    const std::optional<double> size = number(fields[0], dialect_.size_exponent);
+    std::optional<double> passing = number(fields[1], dialect_.share_exponent);
+    if (!size) problem(line, fields[0], not_a_number(fields[0]), "sieve size");
+    if (!passing) problem(line, fields[1], not_a_number(fields[1]), "share passing by mass");
     if (!size || !passing) return;
+    // Decimals of a laboratory, not those of the subtraction.
+    if (dialect_.is_retained) passing = std::round((1.0 - *passing) * 1e12) * 1e-12;
     result_.points.push_back({*size, *passing});
     rows_.push_back({line, {fields[0], fields[1]}});
+  }
+
+  /// Laboratories list the coarsest sieve first as often as last.
+  void put_in_order() {
+    const auto falls = [](const GradingPoint& a, const GradingPoint& b) { return !(b.size < a.size); };
+    if (result_.points.size() < 2 ||
+        std::adjacent_find(result_.points.begin(), result_.points.end(), falls) != result_.points.end()) {
+      return;
+    }
+    std::reverse(result_.points.begin(), result_.points.end());
+    std::reverse(rows_.begin(), rows_.end());
+    result_.notes.emplace_back("from the coarsest sieve down");
   }
 
   void report_faults() {
@@ -99,6 +132,7 @@ class GradingReader {
   CsvText text_;
   std::vector<Row> rows_;
   GradingFile result_;
+  GradingDialect dialect_;
   bool has_header_ = false;
 };
 
@@ -146,9 +180,15 @@ std::vector<GradingFault> grading_faults(const Grading& grading, PassingUnit uni
 GradingFile parse_grading(std::string_view text, std::string_view name) {
   text = without_mark(text);
   if (text.size() > k_largest_case_file) {
-    return {{}, {fmt::format("{}:1:1: error: the file is larger than 1 MiB: this is not a grading", name)}};
+    GradingFile refused;
+    refused.problems.push_back(
+        fmt::format("{}:1:1: error: the file is larger than 1 MiB: this is not a grading", name));
+    return refused;
   }
-  return GradingReader(text, name).run();
+  const std::string plain = without_utf16(text);
+  GradingFile file = GradingReader(without_mark(plain), name).run();
+  if (plain.size() != text.size()) file.notes.insert(file.notes.begin(), "UTF-16 text");
+  return file;
 }
 
 GradingFile read_grading_file(const std::filesystem::path& path) {

@@ -31,9 +31,11 @@ std::vector<GradingFault> grading_faults(const Grading& grading, PassingUnit uni
 struct GradingFile {
   Grading points;  ///< sizes in m, passing as a fraction; meaningful only without problems
   std::vector<std::string> problems;
+  std::vector<std::string> notes;  ///< what was understood of a table that is not in our form; grading_dialect.hpp
 };
 
-/// Reads the columns "size_mm,passing_percent"; lines that begin with # are comments. Throws MissingFileError.
+/// Reads the columns "size_mm,passing_percent", or a table as a laboratory exports it: other words, separators and units in the
+/// header, decimal commas, coarsest sieve first, empty columns behind; lines that begin with # are comments. Throws MissingFileError.
 GradingFile read_grading_file(const std::filesystem::path& path);
 
 /// The same from text; `name` is the file in messages. Never throws on any bytes.

@@ -2,6 +2,7 @@
 // Gradings from CSV: values, and every rule with its place.
 #include "dem4grm/case_file/grading_file.hpp"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -39,6 +40,49 @@ TEST(GradingFileTest, ReadsSizesAndShares) {
   EXPECT_EQ(largest_grain(file.points), 8.5e-3);
 }
 
+/// What is read, in mm and per cent, and the notes.
+void expect_read_as_ours(std::string_view text, const std::vector<std::string>& notes) {
+  const GradingFile file = parse_grading(text, "g.csv");
+  ASSERT_TRUE(file.problems.empty()) << file.problems[0];
+  ASSERT_EQ(file.points.size(), 3U) << text;
+  const std::array<double, 3> sizes{3.5e-3, 5.6e-3, 8e-3}, shares{0.0, 0.143, 1.0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(file.points[k].size, sizes[k]) << text;
+    EXPECT_EQ(file.points[k].passing, shares[k]) << text;
+  }
+  EXPECT_EQ(file.notes, notes) << text;
+}
+
+TEST(GradingFileTest, TablesOfLaboratories) {
+  expect_read_as_ours("size_mm,passing_percent\n3.5,0\n5.6,14.3\n8,100\n", {});
+  expect_read_as_ours("size_mm,passing_percent,,\n3.5,0,,\n5.6,14.3,,\n8,100,,\n,,,\n", {});
+  expect_read_as_ours("Sieve size (mm);Passing (%)\n3,5;0\n5,6;14,3\n8;100\n", {"columns parted by semicolons"});
+  expect_read_as_ours("Opening [mm]\t% finer\n8\t100\n5.6\t14.3\n3.5\t0\n",
+                      {"columns parted by tabs", "from the coarsest sieve down"});
+  expect_read_as_ours("diameter (\xc2\xb5m),fraction passing\n3500,0\n5600,0.143\n8000,1\n",
+                      {"sizes in micrometres", "shares as fractions of 1"});
+  expect_read_as_ours("d [um];cumulative retained %\n8000;0\n5600;85,7\n3500;100\n",
+                      {"columns parted by semicolons", "sizes in micrometres",
+                       "shares are those retained, added up from the coarsest sieve", "from the coarsest sieve down"});
+  expect_read_as_ours("sieve,passing\n3.5,0\n5.6,14.3\n8,100\n",
+                      {"sizes in mm, since no unit is named", "shares in per cent, since the header does not say"});
+  expect_read_as_ours("size (m),passing percent\n0.0035,0\n0.0056,14.3\n0.008,100\n", {"sizes in m"});
+  const std::string ascii = "size_mm,passing_percent\n3.5,0\n5.6,14.3\n8,100\n";
+  std::string little = "\xFF\xFE", big = "\xFE\xFF";
+  for (const char c : ascii) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  expect_read_as_ours(little, {"UTF-16 text"});
+  expect_read_as_ours(big, {"UTF-16 text"});
+}
+
+TEST(GradingFileTest, TablesThatCanBeReadInTwoWaysAreRefused) {
+  EXPECT_EQ(faults_in("size_mm,retained_percent\n3,100\n4,0\n").size(), 1U) << "on one sieve, or added up?";
+  EXPECT_EQ(faults_in("size_mm,mass_g\n3,100\n4,0\n").size(), 1U);
+  EXPECT_EQ(faults_in("size_mm,passing_percent\n3,5,0\n4,0,100\n").size(), 2U) << "decimal commas between commas";
+}
+
 TEST(GradingFileTest, GrainSizesComeFromTheEndsOfTheCurve) {
   const Grading grading{{1e-3, 0.0}, {2e-3, 0.0}, {4e-3, 1.0}, {8e-3, 1.0}};
   EXPECT_EQ(smallest_grain(grading), 2e-3);
@@ -70,7 +114,7 @@ TEST(GradingFileTest, AllRules) {
             (Faults{"g.csv:3:1: error: 1 instead of 2 numbers", "g.csv:4:1: error: \"x\" is not a plain decimal number",
                     "g.csv:5:3: error: \"inf\" is not a plain decimal number",
                     "g.csv:6:3: error: \"1e999\" is not a plain decimal number"}));
-  EXPECT_EQ(faults_in(head + "3,0,\n4,100\n"), Faults{"g.csv:2:1: error: 3 instead of 2 numbers"});
+  EXPECT_EQ(faults_in(head + "3,0,7\n4,100\n"), Faults{"g.csv:2:1: error: 3 instead of 2 numbers"});
 }
 
 TEST(GradingFileTest, AnyBytesAreSurvived) {

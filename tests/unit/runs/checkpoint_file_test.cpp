@@ -124,7 +124,7 @@ TEST_F(CheckpointFile, NewOneReplacesTheOldAsAWhole) {
 
 TEST_F(CheckpointFile, OldOneStaysWhenTheNewOneCannotBeWritten) {
   write_checkpoint(path_, some_state(), {"old", 1.0, {}});
-  std::filesystem::create_directory(path_.string() + ".tmp");
+  std::filesystem::create_directories(path_.string() + ".tmp/in/the/way");
   EXPECT_THROW(write_checkpoint(path_, some_state(), {"new", 2.0, {}}), IoError);
   EXPECT_EQ(read_checkpoint(path_).facts.resolved_toml, "old");
 }
