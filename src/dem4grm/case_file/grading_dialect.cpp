@@ -56,7 +56,7 @@ bool read_size(const std::string& name, GradingDialect& dialect) {
 bool read_share(const std::string& name, GradingDialect& dialect) {
   if (has_one_of(name, {"retained"})) {
     // What lies on one sieve alone is another number, and the two cannot be told apart by looking.
-    if (!has_one_of(name, {"cum"})) return false;
+    if (!has_one_of(name, {"cum"}) || has_one_of(name, {"non", "not", "individual", "partial"})) return false;
     dialect.is_retained = true;
     dialect.notes.emplace_back("shares are those retained, added up from the coarsest sieve");
   } else if (!has_one_of(name, {"passing", "finer", "undersize"})) {

@@ -79,6 +79,7 @@ TEST(GradingFileTest, TablesOfLaboratories) {
 
 TEST(GradingFileTest, TablesThatCanBeReadInTwoWaysAreRefused) {
   EXPECT_EQ(faults_in("size_mm,retained_percent\n3,100\n4,0\n").size(), 1U) << "on one sieve, or added up?";
+  EXPECT_EQ(faults_in("size_mm,non-cumulative retained %\n3,100\n4,0\n").size(), 1U);
   EXPECT_EQ(faults_in("size_mm,mass_g\n3,100\n4,0\n").size(), 1U);
   EXPECT_EQ(faults_in("size_mm,passing_percent\n3,5,0\n4,0,100\n").size(), 2U) << "decimal commas between commas";
 }
