@@ -207,7 +207,7 @@ DEM_INLINE BondForce incremental_bond(const BondParameters& p, const BondMotion&
 
 /// Elastic energy of a bond from its forces, J; the dashpot stores none.
 DEM_INLINE double bond_energy(const BondParameters& p, double length, const Vec3& shear, const Vec3& moment,
-                          const Vec3& n) {
+                              const Vec3& n) {
   const double stretch = length - p.rest_length;
   const double squeezed = stretch < 0.0 ? stretch : 0.0;
   const double twist = dot(moment, n);
