@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <string>
+#include <string_view>
 
 #include "dem4grm/case_file/case_file.hpp"
 #include "dem4grm/core/error.hpp"
@@ -77,17 +78,21 @@ std::optional<StateArchive> PreparationStore::fetch(const std::string& name) con
   }
 }
 
-/// What processes of this machine that are no more left half written.
+/// What processes of this machine that are no more left half written: NAME-HOST-PROCESS.part, or the draft of that.
 void PreparationStore::remove_dead_drafts() const {
-  const std::regex draft("-" + std::regex_replace(host_name(), std::regex("[^A-Za-z0-9-]"), ".") +
-                         "-([0-9]{1,9})\\.part(\\.tmp)?$");
+  const std::string of_this_machine = "-" + host_name() + "-";
   std::error_code error;
   std::filesystem::directory_iterator entry(folder_, error), end;
   for (; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    std::smatch found;
-    if (!std::regex_search(name, found, draft)) continue;
-    const bool is_dead = ::kill(static_cast<pid_t>(std::stol(found[1])), 0) != 0 && errno == ESRCH;
+    std::string name = entry->path().filename().string();
+    if (name.ends_with(".tmp")) name.resize(name.size() - 4);
+    const std::size_t at = name.rfind(of_this_machine);
+    if (at == std::string::npos || !name.ends_with(".part")) continue;
+    const std::string_view number = std::string_view(name).substr(at + of_this_machine.size());
+    pid_t process = 0;
+    const auto [rest, reason] = std::from_chars(number.data(), number.data() + number.size(), process);
+    if (reason != std::errc() || std::string_view(rest, number.data() + number.size()) != ".part") continue;
+    const bool is_dead = process > 0 && ::kill(process, 0) != 0 && errno == ESRCH;
     std::error_code ignored;
     if (is_dead) std::filesystem::remove(entry->path(), ignored);
   }
