@@ -7,13 +7,12 @@ the seeds for each roughness of the plates and each split plane. Shares of the s
 and over the last 2 mm.
 """
 import argparse
-import csv
 import pathlib
 import sys
 
 import numpy as np
 
-from run_files import fill_page, read_csv, read_json
+from run_files import fill_page, read_csv, read_json, write_rows
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "results" / "boundaries.md"
 ROWS = (("void_ratio_before_shear", "void ratio before shear", 3), ("k0_x", "K0 along x", 2),
@@ -73,10 +72,7 @@ def main():
             print(f"{folder}: not finished", file=sys.stderr)
             return 66
         tests.append(read_test({v["key"]: v["value"].strip('"') for v in test["values"]}, folder))
-    with open(PAGE.with_suffix(".csv"), "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, tests[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in t.items()} for t in tests)
+    write_rows(PAGE.with_suffix(".csv"), tests)
     fill_page(PAGE, {"table": table(tests)})
     return 0
 

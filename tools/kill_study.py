@@ -21,34 +21,13 @@ import time
 FILES = ("shear.csv", "micro.csv", "walls.csv", "profiles.csv")
 
 
-CASE = """# A few hundred grains that take seconds.
-name = "kills"
-[specimen]
-rubber_content = 0.2
-preparation_friction = 0.3
-generation_void_ratio = 0.85
-gravel_grading = [["3.6 mm", 0.0], ["4.0 mm", 1.0]]
-rubber_grading = [["3.6 mm", 0.0], ["3.8 mm", 1.0]]
-[box]
-length = "24 mm"
-width  = "24 mm"
-height = "24 mm"
-upper_height = "45 mm"
-[equilibrium]
-force_ratio = 0.02
-plate_speed = "5 mm/s"
-hold_steps = 200
-[shear]
-normal_stress = "100 kPa"
-velocity      = "100 mm/s"
-displacement  = "1 mm"
-[recording]
-frame_interval = "0.25 mm"
-"""
+CASE = pathlib.Path(__file__).resolve().parent.parent / "cases/studies/small-box.toml"
+SETTINGS = ("specimen.rubber_content=0.05", "shear.displacement=0.4 mm", "recording.frame_interval=0.1 mm")  # some seconds
 
 
 def words(program, folder, threads):
-    return [program, "run", folder.parent / "case.toml", "-q", "-o", folder, "-j", str(threads)]
+    settings = [word for setting in SETTINGS for word in ("--set", setting)]
+    return [program, "run", CASE, "-q", "-o", folder, "-j", str(threads), *settings]
 
 
 def hash_of(folder):
@@ -90,7 +69,6 @@ def main():
     program = options.program.resolve()
     with tempfile.TemporaryDirectory(prefix="kills-") as place:
         straight = pathlib.Path(place) / "straight"
-        (straight.parent / "case.toml").write_text(CASE)
         start = time.monotonic()
         subprocess.run(words(program, straight, 1), check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         whole = time.monotonic() - start

@@ -10,13 +10,12 @@ folders of finished specimens (dem4grm specimen) of VRC 0 and 100. Each fills it
 standard deviation over the seeds.
 """
 import argparse
-import csv
 import pathlib
 import sys
 
 import numpy as np
 
-from run_files import fill_page, read_csv, read_json
+from run_files import fill_page, read_csv, read_json, write_rows
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "results" / "preparation.md"
 PUBLISHED = {(0.0, 30): 0.534, (0.0, 60): 0.516, (0.0, 100): 0.511, (1.0, 30): 0.782, (1.0, 60): 0.681, (1.0, 100): 0.598}
@@ -107,13 +106,6 @@ def fit_table(rows):
     return "\n".join(lines)
 
 
-def write_csv(path, rows):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
-        writer.writeheader()
-        writer.writerows({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", type=pathlib.Path, nargs="+", help="folders of finished specimens")
@@ -122,14 +114,14 @@ def main():
     options = parser.parse_args()
     if options.fit:
         rows = fit_rows(options.fit)
-        write_csv(PAGE.with_name("preparation-fit.csv"), rows)
+        write_rows(PAGE.with_name("preparation-fit.csv"), rows)
         fill_page(PAGE, {"fit": fit_table(rows)})
     for name in ("density", "choices", "rubber"):
         campaign = getattr(options, name)
         if campaign is None:
             continue
         tests = tests_of(campaign)
-        write_csv(PAGE.with_name(f"preparation-{name}.csv"), [{"test": group, "seed": seed} | numbers for group, seed, numbers in tests])
+        write_rows(PAGE.with_name(f"preparation-{name}.csv"), [{"test": group, "seed": seed} | numbers for group, seed, numbers in tests])
         fill_page(PAGE, {name: table_of(tests)})
     return 0
 

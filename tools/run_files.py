@@ -20,6 +20,14 @@ def read_json(folder, name="summary.json"):
     return json.loads(path.read_text(encoding="utf-8")) if path.exists() else None
 
 
+def write_rows(path, rows):
+    """A CSV file of rows that are dictionaries with the same keys; floats with six digits."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({k: f"{v:.6g}" if isinstance(v, float) else v for k, v in row.items()} for row in rows)
+
+
 def fill_page(page, tables):
     """Puts each table (Markdown text by its name) between the marks `<!-- name -->` and `<!-- end of name -->` of a page."""
     text = page.read_text(encoding="utf-8")
