@@ -106,6 +106,7 @@ run_tests() {
 }
 
 release_build() {
+  tools/build_page.sh
   configure release "$release"
   build "$release"
 }

@@ -13,11 +13,16 @@ set -euo pipefail
 build_packages=(
   g++ cmake ninja-build make pkg-config git ca-certificates
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  libhdf5-dev libxxhash-dev libeigen3-dev libboost-dev
+  libhdf5-dev zlib1g-dev libxxhash-dev libeigen3-dev libboost-dev
 )
+# The report page is made by node and npm. Whoever has them from elsewhere keeps those: Debian's npm does not go with another node.
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  build_packages+=(nodejs npm)
+fi
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
 # see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,
 # see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
+# chromium opens the report page, see web/test.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
@@ -25,6 +30,7 @@ test_packages=(
   python3 python3-numpy python3-h5py python3-matplotlib
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
+  chromium
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.
