@@ -102,6 +102,9 @@ export interface HistogramSet {
     theta_n_deg: [number, number] | null;
     a_t: [number, number] | null;
     theta_t_deg: [number, number] | null;
+    /** Of the signed tangential force; may be left out. */
+    a_s?: [number, number] | null;
+    theta_s_deg?: [number, number] | null;
   };
 }
 

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Opens pages from disk in one headless Chromium and checks what a reader relies on: nothing is asked of a network, nothing fails,
+// every chart has data, controls change pictures, keyboard and contrast serve everybody, numbers equal those of the data.
+//
+//   node test/browser.mjs [--shots FOLDER] [--chromium PROGRAM] PAGE.html...
+//
+// Not tested: that the pictures are beautiful (look at the screenshots), and the physics of the numbers.
+import { mkdirSync } from "node:fs";
+import { basename, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { chromium } from "playwright-core";
+import { accessibility, charts, cutPlane, keyboard, numbers, printing, sliders, unfold } from "./browser/checks.mjs";
+
+const FLAGS = [
+  "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync", "--no-first-run",
+];
+const WIDTHS = [400, 900, 1600];
+
+function options(words) {
+  const found = { pages: [], shots: "", program: "/usr/bin/chromium" };
+  for (let k = 0; k < words.length; k += 1) {
+    if (words[k] === "--shots") found.shots = resolve(words[(k += 1)] ?? "");
+    else if (words[k] === "--chromium") found.program = words[(k += 1)] ?? "";
+    else found.pages.push(resolve(words[k]));
+  }
+  return found;
+}
+
+/** What the page asked for beside itself, and what went wrong in it. */
+function listen(page, address) {
+  const seen = { requests: [], errors: [] };
+  page.on("request", (request) => {
+    const url = request.url();
+    if (url !== address && !url.startsWith("data:") && !url.startsWith("blob:")) seen.requests.push(url);
+  });
+  page.on("console", (message) => message.type() === "error" && seen.errors.push(message.text()));
+  page.on("pageerror", (error) => seen.errors.push(String(error)));
+  return seen;
+}
+
+async function screenshots(page, folder, name) {
+  mkdirSync(folder, { recursive: true });
+  for (const width of WIDTHS) {
+    await page.setViewportSize({ width, height: 900 });
+    await page.waitForTimeout(150);
+    await page.screenshot({ path: join(folder, `${name}-${width}.png`), fullPage: true });
+  }
+  await page.evaluate(() => document.querySelector("button.theme").click());
+  await page.screenshot({ path: join(folder, `${name}-1600-dark.png`), fullPage: true });
+  await page.evaluate(() => document.querySelector("button.theme").click());
+  await page.setViewportSize({ width: 1280, height: 900 });
+}
+
+async function checkPage(browser, file, shots) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, colorScheme: "light" });
+  const page = await context.newPage();
+  const address = pathToFileURL(file).href;
+  const seen = listen(page, address);
+  const failures = [];
+  const facts = [];
+  const check = async (name, work) => {
+    const begun = performance.now();
+    const { problems, fact } = await work(page);
+    facts.push(`${name}: ${problems.length === 0 ? "ok" : "FAILED"}${fact ? `, ${fact}` : ""} (${Math.round(performance.now() - begun)} ms)`);
+    failures.push(...problems.map((problem) => `${name}: ${problem}`));
+  };
+  await page.goto(address, { waitUntil: "load" });
+  const paint = await page.evaluate(() => new Promise((done) => {
+    const found = () => performance.getEntriesByName("first-contentful-paint")[0]?.startTime;
+    requestAnimationFrame(() => setTimeout(() => done(found() ?? performance.now()), 0));
+  }));
+  facts.push(`first paint after ${Math.round(paint)} ms`);
+  if (paint > 3000) failures.push(`first paint after ${Math.round(paint)} ms, more than 3000`);
+  if (shots) await screenshots(page, shots, basename(file, ".html"));
+  await check("unfolding", unfold);
+  await check("charts", charts);
+  await check("numbers", numbers);
+  await check("sliders", sliders);
+  await check("cut plane", cutPlane);
+  await check("keyboard", keyboard);
+  await check("accessibility, light", accessibility);
+  await page.evaluate(() => document.querySelector("button.theme").click());
+  await check("accessibility, dark", accessibility);
+  await check("print", printing);
+  failures.push(...seen.requests.map((url) => `request: ${url}`), ...seen.errors.map((text) => `console: ${text}`));
+  facts.push(`${seen.requests.length} requests, ${seen.errors.length} errors`);
+  await context.close();
+  return { failures, facts };
+}
+
+const { pages, shots, program } = options(process.argv.slice(2));
+if (pages.length === 0) {
+  console.error("usage: node test/browser.mjs [--shots FOLDER] [--chromium PROGRAM] PAGE.html...");
+  process.exit(64);
+}
+const browser = await chromium.launch({ executablePath: program, args: FLAGS, chromiumSandbox: false });
+let failed = 0;
+try {
+  for (const file of pages) {
+    const { failures, facts } = await checkPage(browser, file, shots);
+    console.log(`${file}\n  ${facts.join("\n  ")}`);
+    for (const failure of failures) console.error(`  FAILED ${failure}`);
+    failed += failures.length;
+  }
+} finally {
+  await browser.close();
+}
+console.log(failed === 0 ? "all pages passed" : `${failed} failures`);
+process.exitCode = failed === 0 ? 0 : 1;
