@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Balls on the graphics processor: places and colours in textures, one square for each ball that is shown.
+// Balls on the graphics processor: places and colours in textures, one triangle around the disc of each ball that is shown.
+//
+// Corner c of ball b is index 3 b + c, and the program takes both from there. Instances would be the usual way, but are slow for
+// such small pieces: software rendering took ten to forty times as long.
 import * as THREE from "three";
 import type { BodyState, Geometry } from "./bodies.ts";
 import { BALL_FRAGMENT, BALL_VERTEX } from "./shaders.ts";
@@ -15,22 +18,16 @@ function texture(balls: number, data: Float32Array | Uint8Array, type: THREE.Tex
   return made;
 }
 
-/** A square of corners -1 to 1, as two triangles. */
-export function squareGeometry(): THREE.InstancedBufferGeometry {
-  const square = new THREE.InstancedBufferGeometry();
-  square.setAttribute("corner", new THREE.BufferAttribute(new Float32Array([-1, -1, 1, -1, 1, 1, -1, 1]), 2));
-  square.setIndex([0, 1, 2, 0, 2, 3]);
-  return square;
-}
-
 export class Balls {
   readonly scene = new THREE.Scene();
   readonly places: THREE.DataTexture;
   readonly colours: THREE.DataTexture;
   readonly cut = new THREE.Vector4(0, 0, 0, 1e9);
   readonly cutInView = new THREE.Vector3();
-  private readonly squares = squareGeometry();
-  private readonly shown: THREE.InstancedBufferAttribute;
+  /** Of the balls that are shown. */
+  count = 0;
+  private readonly triangles = new THREE.BufferGeometry();
+  private readonly corners: THREE.BufferAttribute;
   private readonly material: THREE.RawShaderMaterial;
 
   constructor(private readonly geometry: Geometry) {
@@ -39,22 +36,17 @@ export class Balls {
     for (let b = 0; b < geometry.balls; ++b) places[4 * b + 3] = geometry.radius[b]!;
     this.places = texture(geometry.balls, places, THREE.FloatType);
     this.colours = texture(geometry.balls, new Uint8Array(4 * texels), THREE.UnsignedByteType);
-    this.shown = new THREE.InstancedBufferAttribute(new Uint32Array(Math.max(1, geometry.balls)), 1);
-    this.shown.gpuType = THREE.IntType;
-    this.shown.setUsage(THREE.DynamicDrawUsage);
-    this.squares.setAttribute("ball", this.shown);
-    this.squares.instanceCount = 0;
+    this.corners = new THREE.BufferAttribute(new Uint32Array(Math.max(3, 3 * geometry.balls)), 1);
+    this.corners.setUsage(THREE.DynamicDrawUsage);
+    this.triangles.setIndex(this.corners);
+    this.triangles.setDrawRange(0, 0);
     this.material = new THREE.RawShaderMaterial({
       glslVersion: THREE.GLSL3, vertexShader: BALL_VERTEX, fragmentShader: BALL_FRAGMENT, blending: THREE.NoBlending,
       uniforms: { balls: { value: this.places }, cut: { value: this.cut }, cutInView: { value: this.cutInView } },
     });
-    const mesh = new THREE.Mesh(this.squares, this.material);
+    const mesh = new THREE.Mesh(this.triangles, this.material);
     mesh.frustumCulled = false;
     this.scene.add(mesh);
-  }
-
-  get count(): number {
-    return this.squares.instanceCount;
   }
 
   place(state: BodyState): void {
@@ -88,7 +80,7 @@ export class Balls {
 
   /** Shows the balls of the bodies that pass. */
   choose(passes: (body: number) => boolean): void {
-    const list = this.shown.array as Uint32Array;
+    const list = this.corners.array as Uint32Array;
     const { body, balls } = this.geometry;
     let n = 0, last = -1, pass = false;
     for (let k = 0; k < balls; ++k) {
@@ -96,16 +88,19 @@ export class Balls {
         last = body[k]!;
         pass = passes(last);
       }
-      if (pass) list[n++] = k;
+      if (!pass) continue;
+      for (let corner = 0; corner < 3; ++corner) list[3 * n + corner] = 3 * k + corner;
+      n += 1;
     }
-    this.squares.instanceCount = n;
-    this.shown.needsUpdate = true;
+    this.count = n;
+    this.triangles.setDrawRange(0, 3 * n);
+    this.corners.needsUpdate = true;
   }
 
   dispose(): void {
     this.places.dispose();
     this.colours.dispose();
-    this.squares.dispose();
+    this.triangles.dispose();
     this.material.dispose();
   }
 }

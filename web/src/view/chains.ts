@@ -58,7 +58,7 @@ export function chainRods(
     const i = contacts.body_i[c]!, j = contacts.body_j[c]!, force = contacts.force_N[c]!;
     rods.start.set(centre.subarray(3 * i, 3 * i + 3), 3 * k);
     rods.end.set(centre.subarray(3 * j, 3 * j + 3), 3 * k);
-    rods.radius[k] = branch * Math.min(0.3, 0.055 * Math.sqrt(force / contacts.mean_N));
+    rods.radius[k] = branch * Math.min(0.3, 0.05 * Math.sqrt(force / contacts.mean_N));
     const { low, high } = rods.range;
     rods.colour.set(
       colouring === "contact" ? CONTACT_COLOURS[contactKind(geometry.rubberGrains, i, j)]! : scaleColour("plasma", (force - low) / (high - low)), 3 * k,

@@ -40,7 +40,7 @@ function text(context: CanvasRenderingContext2D, words: string, x: number, y: nu
 }
 
 function colourBar(context: CanvasRenderingContext2D, bar: ColourBar, right: number, bottom: number, overlay: Overlay): number {
-  const width = 150, height = 11, left = right - width, top = bottom - LINE - height;
+  const width = 160, height = 11, left = right - width, top = bottom - LINE - height;
   for (let x = 0; x < width; ++x) {
     context.fillStyle = css(scaleColour(bar.scale, (x + 0.5) / width));
     context.fillRect(left + x, top, 1.5, height);
@@ -49,12 +49,14 @@ function colourBar(context: CanvasRenderingContext2D, bar: ColourBar, right: num
   context.lineWidth = 0.75;
   context.strokeRect(left, top, width, height);
   const { low, high, below, above } = bar.range;
+  const lowest = (below ? "≤ " : "") + formatNumber(low, 3), middle = formatNumber((low + high) / 2, 3), highest = (above ? "≥ " : "") + formatNumber(high, 3);
   context.textAlign = "left";
-  text(context, (below ? "≤ " : "") + formatNumber(low, 3), left, bottom - 3, overlay);
+  text(context, lowest, left, bottom - 3, overlay);
+  const room = width - context.measureText(middle).width - 2 * Math.max(context.measureText(lowest).width, context.measureText(highest).width);
   context.textAlign = "center";
-  text(context, formatNumber((low + high) / 2, 3), left + width / 2, bottom - 3, overlay);
+  if (room > 12) text(context, middle, left + width / 2, bottom - 3, overlay);
   context.textAlign = "right";
-  text(context, (above ? "≥ " : "") + formatNumber(high, 3), right, bottom - 3, overlay);
+  text(context, highest, right, bottom - 3, overlay);
   text(context, `${bar.title}, ${bar.unit}`, right, top - 7, overlay);
   return top - 7 - LINE;
 }

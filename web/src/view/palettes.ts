@@ -13,11 +13,12 @@ export function css([r, g, b]: Rgb): string {
 }
 
 // 17 colours at equal distances, of matplotlib. Sources: viridis and plasma by S. van der Walt and N. Smith (2015); cividis by
-// Nunez, Anderton and Renslow (2018), PLoS ONE 13, e0199239. Plasma ends at 0.88: its last yellow does not show on paper.
+// Nunez, Anderton and Renslow (2018), PLoS ONE 13, e0199239. Plasma is taken from 0.1 to
+// 0.9: its ends do not show on dark and on white paper.
 const SCALES = {
   viridis: "440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c 1fa088 28ae80 3fbc73 5ec962 84d44b addc30 d8e219 fde725",
   cividis: "00224e 002e6a 1a386f 32436d 434e6c 535a6d 61656f 6f7073 7d7c78 8c8878 9b9476 aba072 bcae6c cdbb63 dec958 f0d846 fee838",
-  plasma: "0d0887 2e0595 46039f 5c01a6 7201a8 8707a6 9a169f ac2694 bc3587 ca457a d6556d e26561 eb7655 f48948 fa9c3c fdb130 fdc627",
+  plasma: "41049d 5601a4 6a00a8 7e03a8 8f0da4 a11b9b b12a90 bf3984 cc4778 d6556d e16462 ea7457 f2844b f89540 fca636 feba2c fcce25",
 };
 export type Scale = keyof typeof SCALES;
 const STOPS = Object.fromEntries(Object.entries(SCALES).map(([name, text]) => [name, text.split(" ").map(rgb)])) as Record<Scale, Rgb[]>;
@@ -31,7 +32,7 @@ export function scaleColour(scale: Scale, share: number): Rgb {
   return [a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])];
 }
 
-export const KIND_COLOURS = { gravel: rgb("#d2aa72"), rubber: rgb("#2f5488"), none: rgb("#b9b9b6") };
+export const KIND_COLOURS = { gravel: rgb("#dbb47c"), rubber: rgb("#355f9e"), none: rgb("#b9b9b6") };
 /** Okabe and Ito (2008): orange, bluish green, blue. */
 export const CONTACT_COLOURS: Rgb[] = [rgb("#e08a00"), rgb("#009e73"), rgb("#0072b2")];
 
@@ -43,12 +44,12 @@ export interface Range {
   above: boolean;
 }
 
-/** From the 2nd to the 98th percentile: a few extreme bodies must not take all colours for themselves. */
+/** From the 2nd to the 97th percentile: a few extreme bodies must not take all colours for themselves. */
 export function robustRange(values: Float32Array): Range {
   const sorted = values.filter(Number.isFinite).sort();
   const last = sorted.length - 1;
   if (last < 0) return { low: 0, high: 1, below: false, above: false };
-  let low = sorted[Math.floor(0.02 * last)]!, high = sorted[Math.ceil(0.98 * last)]!;
+  let low = sorted[Math.floor(0.02 * last)]!, high = sorted[Math.ceil(0.97 * last)]!;
   if (low >= 0 && low < 0.15 * high) low = 0;
   if (!(high > low)) high = low + (Math.abs(low) || 1);
   return { low, high, below: sorted[0]! < low, above: sorted[last]! > high };

@@ -3,7 +3,6 @@
 // whose pixels are shifted by parts of a pixel, which smooths edges and shade.
 import * as THREE from "three";
 import type { Balls } from "./balls.ts";
-import { squareGeometry } from "./balls.ts";
 import type { Rods } from "./rods.ts";
 import type { Walls } from "./walls.ts";
 import { COPY_FRAGMENT, SCREEN_VERTEX, SHADE_FRAGMENT } from "./shaders.ts";
@@ -13,6 +12,12 @@ export interface Look {
   paper: THREE.Color;
   /** 0: solid grains, 1: none. In between grains are a pale backdrop and hide nothing. */
   ghost: number;
+  /** 1: colours stand for values, so light changes them little; 0: full light and shade. */
+  plain: number;
+  /** Share of the paper's colour that the farthest chains take. */
+  fog: number;
+  /** Depth of the specimen along the view, mm, from and to. */
+  depths_mm: [number, number];
   /** How far neighbours cast shade, mm. */
   reachOfShade_mm: number;
   /** Points of the neighbourhood that are looked at for shade. */
@@ -33,8 +38,8 @@ function screenPass(fragmentShader: string, uniforms: Record<string, THREE.IUnif
     glslVersion: THREE.GLSL3, vertexShader: SCREEN_VERTEX, fragmentShader, uniforms, depthTest: false, depthWrite: false,
     blending: THREE.NoBlending, ...options,
   });
-  const geometry = squareGeometry();
-  geometry.instanceCount = 1;
+  const geometry = new THREE.BufferGeometry();
+  geometry.setIndex([0, 1, 2]);
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   const scene = new THREE.Scene();
@@ -72,7 +77,7 @@ export class Pipeline {
       nearest: { value: this.nearest.texture }, depths: { value: this.nearest.depthTexture }, balls: { value: balls.places },
       colours: { value: balls.colours }, deep: { value: 1 }, pixels: { value: new THREE.Vector2() }, cutInView: { value: balls.cutInView },
       paper: { value: new THREE.Color() }, occlusion: { value: 1 }, reachOfShade: { value: 1 }, samples: { value: 8 },
-      turn: { value: 0 }, ghost: { value: 0 }, lineWidth: { value: 1 }, ballProjection: { value: new THREE.Matrix4() }, ballView: { value: new THREE.Matrix4() },
+      turn: { value: 0 }, ghost: { value: 0 }, plain: { value: 0 }, lineWidth: { value: 1 }, ballProjection: { value: new THREE.Matrix4() }, ballView: { value: new THREE.Matrix4() },
     }, { depthTest: true, depthWrite: true, depthFunc: THREE.AlwaysDepth });
     this.copy = screenPass(COPY_FRAGMENT, { picture: { value: this.sum.texture }, factor: { value: 1 } }, {});
     this.add = screenPass(COPY_FRAGMENT, { picture: { value: this.sample.texture }, factor: { value: 1 } }, {
@@ -105,12 +110,15 @@ export class Pipeline {
     u.samples!.value = look.shadeSamples;
     u.turn!.value = (sample * 0.61803398875) % 1;
     u.ghost!.value = look.ghost;
+    u.plain!.value = look.plain;
     u.lineWidth!.value = look.pixelRatio;
     u.ballProjection!.value.copy(camera.projectionMatrix);
     u.ballView!.value.copy(camera.matrixWorldInverse);
     const perPixel = (camera.right - camera.left) / camera.zoom / this.width;
     this.chains.uniforms.leastRadius.value = 0.4 * perPixel;
     this.walls.edges.uniforms.leastRadius.value = 0.6 * look.pixelRatio * perPixel;
+    this.chains.uniforms.fog.value = look.fog;
+    this.chains.uniforms.fogRange.value.set(look.depths_mm[0] / (camera.far - camera.near), look.depths_mm[1] / (camera.far - camera.near));
     for (const rods of [this.chains, this.walls.edges]) rods.uniforms.paper.value.copy(look.paper);
   }
 

@@ -77,10 +77,13 @@ export class SpecimenScene {
     this.walls.show(settings.walls);
   }
 
-  /** Balls and walls together. */
+  /** Balls and walls of all states together, so that nothing leaves the picture during shear; not the wings, which hold no grains. */
   wholeBox(): THREE.Box3 {
     const box = this.box.clone();
-    for (const point of wallCorners(this.state.walls, this.wallTop()).flat()) box.expandByPoint(new THREE.Vector3(...point));
+    for (const { walls } of this.specimen.view.states) {
+      const holding = walls.filter((wall) => !/wing/i.test(wall.name));
+      for (const point of wallCorners(holding, this.wallTop()).flat()) box.expandByPoint(new THREE.Vector3(...point));
+    }
     return box;
   }
 

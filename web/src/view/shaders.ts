@@ -16,15 +16,17 @@ precision highp int;
 uniform mat4 viewMatrix, projectionMatrix;
 uniform highp sampler2D balls;   // centre and radius, mm
 uniform vec4 cut;                // plane: dot(cut.xyz, p) > cut.w is hidden; 0, 0, 0, 1e9: no cut
-in vec2 corner;
-in uint ball;
 flat out uint id;
 flat out vec3 clip;              // plane in the units of the disc: hidden where dot(clip.xy, corner) + clip.z * height > 1
 out vec2 disc;
 out float depth;
 flat out float reach;            // of the radius, in units of depth
 ${FETCH}
+// Of a triangle around the unit disc.
+const vec2 corners[3] = vec2[3](vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0), vec2(0.0, 2.0));
 void main() {
+  uint ball = uint(gl_VertexID) / 3u;
+  vec2 corner = corners[uint(gl_VertexID) - 3u * ball];
   vec4 b = texelFetch(balls, texel(ball), 0);
   float room = cut.w - dot(cut.xyz, b.xyz);
   vec4 centre = viewMatrix * vec4(b.xyz, 1.0);
@@ -71,9 +73,10 @@ void main() {
 
 export const SCREEN_VERTEX = /* glsl */ `
 precision highp float;
-in vec2 corner;
 out vec2 at;
 void main() {
+  // One triangle that holds the whole picture.
+  vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
   at = corner * 0.5 + 0.5;
   gl_Position = vec4(corner, 0.0, 1.0);
 }
@@ -95,6 +98,7 @@ uniform float occlusion;         // strength; 0: none
 uniform float reachOfShade;      // mm
 uniform int samples;
 uniform float turn;              // of the pattern of samples, differs from sample to sample of the average
+uniform float plain;             // 0: light as on a solid body, 1: colours stay close to those of their scale
 uniform float ghost;             // 0: solid grains, 1: nothing left but paper
 uniform float lineWidth;         // pixels
 in vec2 at;
@@ -131,7 +135,6 @@ void main() {
   uint id = ballAt(p);
   float z = depthAt(p);
   gl_FragDepth = ghost > 0.0 ? 1.0 : z;
-  // Lines are drawn on the nearer of two bodies, and around all of them.
   int w = int(max(1.0, floor(lineWidth + 0.5)));
   float own = mark(id), line = 0.0;
   ivec2 aside[4] = ivec2[4](ivec2(w, 0), ivec2(-w, 0), ivec2(0, w), ivec2(0, -w));
@@ -149,6 +152,7 @@ void main() {
   float skin = -(centre.z + height * ball.w) / deep;
   bool section = z - skin > 0.02 * ball.w / deep;
   if (section) normal = cutInView;
+  // Lines are drawn on the nearer of two bodies.
   for (int k = 0; k < 4; ++k) {
     ivec2 q = p + aside[k];
     if (mark(ballAt(q)) != own) line += section ? 1.0 : smoothstep(0.0, 0.5 * ball.w, (depthAt(q) - z) * deep + 0.2 * ball.w);
@@ -157,12 +161,12 @@ void main() {
   float sky = openness(p, z, normal);
   float key = max(0.0, dot(normal, normalize(vec3(-0.45, 0.6, 0.75))));
   float fill = 0.5 + 0.5 * dot(normal, normalize(vec3(0.5, -0.2, 0.6)));
-  float light = section ? 0.98 : 0.42 + 0.2 * fill + 0.46 * key;
+  float light = section ? 0.98 : 0.46 + 0.22 * fill + 0.5 * key;
   // Light that passes many grains takes some of their colour: shade is not black.
-  vec3 shade = mix(base * base * 0.25, vec3(1.0), sky);
+  vec3 shade = mix(0.08 + 0.3 * base, vec3(1.0), sky);
   vec3 lit = base * light * shade;
   float gleam = section ? 0.0 : 0.10 * pow(max(0.0, dot(normal, normalize(vec3(-0.28, 0.4, 1.0)))), 24.0);
-  lit = lit + gleam * sky;
+  lit = mix(lit + gleam * sky, base * mix(1.0, shade.g, 0.8), 0.45 * plain);
   lit = mix(lit, lit * 0.32, min(1.0, 0.55 * line));
   colour = vec4(mix(lit, paper, ghost), 1.0);
 }

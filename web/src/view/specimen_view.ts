@@ -36,7 +36,7 @@ export interface ViewHandle {
   dispose(): void;
 }
 
-const NO_WEBGL = "The view of the specimen needs WebGL 2, which this browser or its settings do not offer; all numbers of the page are there without it.";
+const TOO_OLD = "The view of the specimen needs WebGL 2, which this browser or its settings do not offer; all numbers of the page are there without it.";
 const PLAY_MILLISECONDS = 700;
 
 function rendererName(gl: WebGL2RenderingContext): string {
@@ -90,7 +90,7 @@ class SpecimenView implements ViewHandle {
     }, this.settings);
     const hint = el("p", { class: "view-note" }, "Drag to turn, right button or two fingers to shift; click first for the wheel. Keys: arrows, + and −. A click names the grain.");
     this.stage = el("div", { class: "view-stage" }, this.canvas, this.overlayCanvas);
-    this.root = el("div", { class: "specimen-view" }, el("div", { class: "view-main" }, this.stage, this.live, hint), this.panel.element);
+    this.root = el("div", { class: "view-root" }, el("div", { class: "view-main" }, this.stage, this.live, hint), this.panel.element);
     container.append(this.root);
     this.sizes = new ResizeObserver(() => this.resize());
     this.sizes.observe(this.stage);
@@ -172,8 +172,10 @@ class SpecimenView implements ViewHandle {
   }
 
   private look_(theme: Theme, pixelRatio: number): Look {
+    const { grains, colour } = this.settings;
     return {
-      paper: colourOf(theme.paper, new THREE.Color()), ghost: this.settings.grains === "pale" ? 0.82 : this.settings.grains === "hidden" ? 1 : 0,
+      paper: colourOf(theme.paper, new THREE.Color()), ghost: grains === "pale" ? 0.76 : grains === "hidden" ? 1 : 0, plain: colour === "kind" ? 0 : 1,
+      fog: grains === "solid" ? 0 : 0.6, depths_mm: this.viewpoint.depths(this.scene.box),
       reachOfShade_mm: 1.1 * this.scene.branch_mm, shadeSamples: this.slow ? 8 : 12, pixelRatio,
     };
   }
@@ -309,19 +311,24 @@ class SpecimenView implements ViewHandle {
   }
 }
 
-/** Puts the view into `container`. The promise is fulfilled with the first picture; without WebGL 2 a sentence takes its place,
- * and the promise is rejected with it. */
-export async function createSpecimenView(container: HTMLElement, view: View, name: string): Promise<ViewHandle> {
+/** Puts the view into `container`; the promise is fulfilled with the first picture. Where nothing can be shown a sentence says why
+ * in its place, and the promise is fulfilled with null. */
+export async function createSpecimenView(container: HTMLElement, view: View, name: string): Promise<ViewHandle | null> {
   const started = performance.now();
+  const instead = (words: string) => {
+    container.append(el("p", { class: "view-missing", role: "note" }, words));
+    return null;
+  };
+  if (view.states.length === 0) return instead("No state of the specimen is stored yet.");
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
-  if (!gl) {
-    container.append(el("p", { class: "view-missing", role: "note" }, NO_WEBGL));
-    throw new Error(NO_WEBGL);
+  if (!gl || typeof DecompressionStream === "undefined") return instead(TOO_OLD);
+  try {
+    const specimen = await Specimen.open(view);
+    const made = new SpecimenView(container, specimen, name, new THREE.WebGLRenderer({ canvas, context: gl }), started);
+    await made.begin();
+    return made;
+  } catch (error) {
+    return instead(`The specimen cannot be shown: ${error instanceof Error ? error.message : String(error)}`);
   }
-  const renderer = new THREE.WebGLRenderer({ canvas, context: gl });
-  const specimen = await Specimen.open(view);
-  const made = new SpecimenView(container, specimen, name, renderer, started);
-  await made.begin();
-  return made;
 }

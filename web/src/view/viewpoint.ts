@@ -7,6 +7,8 @@ export type Direction = "front" | "top" | "oblique";
 
 /** Turn about the vertical from the front, and height above the horizon, degrees. */
 const DIRECTIONS: Record<Direction, [number, number]> = { front: [0, 0], top: [0, 90], oblique: [-32, 24] };
+/** Of the page, pixels. */
+const LEGEND_WIDTH = 130, LEGEND_HEIGHT = 110, CAPTION_HEIGHT = 34, EDGE = 8;
 const KEY_TURN = Math.PI / 36, KEY_ZOOM = 1.15;
 
 export class Viewpoint {
@@ -83,26 +85,52 @@ export class Viewpoint {
     this.fit(box);
   }
 
-  private fit(box: THREE.Box3): void {
+  /** Nearest and farthest depth of a box behind the near end of the view, mm. */
+  depths(box: THREE.Box3): [number, number] {
+    const places = this.corners(box).map((corner) => -corner.z);
+    return [Math.min(...places), Math.max(...places)];
+  }
+
+  /** Of a box, in the frame of the camera. */
+  private corners(box: THREE.Box3): THREE.Vector3[] {
     this.camera.updateMatrixWorld();
-    const inverse = this.camera.matrixWorld.clone().invert();
-    let width = 0, height = 0;
-    for (let k = 0; k < 8; ++k) {
-      const corner = new THREE.Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z).applyMatrix4(inverse);
-      width = Math.max(width, Math.abs(corner.x));
-      height = Math.max(height, Math.abs(corner.y));
-    }
+    return [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new THREE.Vector3(
+      k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z,
+    ).applyMatrix4(this.camera.matrixWorldInverse));
+  }
+
+  private fit(box: THREE.Box3): void {
+    const corners = this.corners(box), free = this.free();
+    const width = Math.max(...corners.map((corner) => Math.abs(corner.x)));
+    const height = Math.max(...corners.map((corner) => Math.abs(corner.y)));
     this.camera.zoom = 1;
-    this.halfHeight = 1.16 * Math.max(height, width / this.aspect);
-    this.resize(this.aspect);
+    this.halfHeight = 1.04 * Math.max(height / (free.bottom - free.top), width / this.aspect / (free.right - free.left));
+    this.setFrustum();
   }
 
   resize(aspect: number): void {
     this.aspect = aspect;
-    this.camera.top = this.halfHeight;
-    this.camera.bottom = -this.halfHeight;
-    this.camera.left = -this.halfHeight * aspect;
-    this.camera.right = this.halfHeight * aspect;
+    this.setFrustum();
+  }
+
+  /** Part of the picture, as shares of it, that caption and legends leave free: the legends stand at the right, in narrow pictures below. */
+  private free(): { left: number; right: number; top: number; bottom: number } {
+    const width = Math.max(1, this.canvas.clientWidth), height = Math.max(1, this.canvas.clientHeight);
+    const wide = width > 640;
+    return {
+      left: 0, right: wide ? 1 - LEGEND_WIDTH / width : 1, top: CAPTION_HEIGHT / height,
+      bottom: wide ? 1 - EDGE / height : Math.max(0.5, 1 - LEGEND_HEIGHT / height),
+    };
+  }
+
+  /** The middle of the free part shows the point about which the view turns. */
+  private setFrustum(): void {
+    const { left, right, top, bottom } = this.free(), high = this.halfHeight, wide = high * this.aspect;
+    const aside = wide * (1 - left - right), above = high * (top + bottom - 1);
+    this.camera.left = -wide + aside;
+    this.camera.right = wide + aside;
+    this.camera.top = high + above;
+    this.camera.bottom = -high + above;
     this.camera.updateProjectionMatrix();
     this.changed(false);
   }
