@@ -18,9 +18,16 @@ function pageVerdict(data: PageData): Verdict {
   if (data.campaign) {
     const missing = missingTests(data.campaign, data).length;
     const all = data.campaign.tests.length;
-    const worst = worstOf(data.tests);
-    if (missing === 0) return { tone: worst, text: `all ${all} tests finished${worst === "good" ? ", all checks passed" : worst === "unknown" ? "" : ", some with warnings"}` };
-    return { tone: "warning", text: `${all - missing} of ${all} tests finished` };
+    const tones = data.tests.map((test) => testVerdict(test).tone);
+    const count = (tone: Verdict["tone"], words: string) => {
+      const number = tones.filter((one) => one === tone).length;
+      return number > 0 ? `, ${number} ${words}` : "";
+    };
+    const doubts = `${count("bad", "not to be used without care")}${count("warning", "to be looked at")}`;
+    const tone = worstOf(data.tests);
+    return missing === 0
+      ? { tone, text: `all ${all} tests finished${doubts || ", all checks passed"}` }
+      : { tone: tone === "bad" ? tone : "warning", text: `${all - missing} of ${all} tests finished${doubts}` };
   }
   if (only && data.tests.length === 1) return testVerdict(only);
   if (!only) return { tone: "unknown", text: "no tests" };
@@ -50,7 +57,7 @@ function header(data: PageData): HTMLElement {
 }
 
 function navigation(parts: Part[], data: PageData): HTMLElement {
-  const links = parts.map(({ id, title }) => el("li", {}, el("a", { href: `#${id}` }, title)));
+  const links = parts.map(({ id, title, short }) => el("li", {}, el("a", { href: `#${id}` }, short ?? title)));
   const nav = el("nav", { class: "page-nav", "aria-label": "Parts of the page" },
     el("div", { class: "nav-inner" }, el("ul", {}, ...links), data.live_seconds === null ? null : liveBar(data.live_seconds), themeSwitch()));
   const byId = new Map(parts.map(({ id }, place) => [id, links[place]?.firstElementChild]));
@@ -105,7 +112,7 @@ export function buildPage(data: PageData, main: HTMLElement): void {
   if (!only) {
     const folded = data.tests.map((test) => foldedTest(test, data, ids.get(test) ?? ""));
     parts.push({ id: "each", title: "Each test", body: folded });
-    parts.push({ id: "provenance", title: "Provenance", body: [el("h4", {}, "Command that makes this page again"), command(data.program.command)] });
+    parts.push({ id: "provenance", title: "Provenance", body: [el("p", { class: "subtitle" }, "Command that makes this page again"), command(data.program.command)] });
   }
   const article = el("div", { class: "parts" }, ...parts.map((part) => section(part, 2)));
   if (only) article.dataset.test = only.name;

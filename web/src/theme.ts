@@ -18,6 +18,9 @@ export function themeSwitch(): HTMLElement {
     apply();
   });
   system.addEventListener("change", apply);
+  // What is drawn by the graphics processor knows no style sheet of paper.
+  addEventListener("beforeprint", () => (document.documentElement.dataset.theme = "light"));
+  addEventListener("afterprint", apply);
   apply();
   return button;
 }

@@ -16,6 +16,7 @@ const FLAGS = [
   "--disable-component-update", "--disable-sync", "--no-first-run",
 ];
 const WIDTHS = [400, 900, 1600];
+const SHEET = 1800;
 
 function options(words) {
   const found = { pages: [], shots: "", program: "/usr/bin/chromium" };
@@ -39,16 +40,26 @@ function listen(page, address) {
   return seen;
 }
 
+/** Sheets of one height below each other: a whole long page is more than the graphics of a headless browser hold in one picture. */
+async function sheets(page, width, path) {
+  await page.setViewportSize({ width, height: SHEET });
+  const height = await page.evaluate(() => document.documentElement.scrollHeight);
+  for (let sheet = 0; sheet * SHEET < height; sheet += 1) {
+    await page.evaluate((top) => scrollTo({ top, behavior: "instant" }), sheet * SHEET);
+    await page.waitForTimeout(250);
+    await page.screenshot({ path: `${path}-${width}-${sheet + 1}.png` });
+  }
+}
+
 async function screenshots(page, folder, name) {
   mkdirSync(folder, { recursive: true });
-  for (const width of WIDTHS) {
-    await page.setViewportSize({ width, height: 900 });
-    await page.waitForTimeout(150);
-    await page.screenshot({ path: join(folder, `${name}-${width}.png`), fullPage: true });
-  }
+  for (const width of WIDTHS) await sheets(page, width, join(folder, name));
   await page.evaluate(() => document.querySelector("button.theme").click());
-  await page.screenshot({ path: join(folder, `${name}-1600-dark.png`), fullPage: true });
-  await page.evaluate(() => document.querySelector("button.theme").click());
+  await sheets(page, 1200, join(folder, `${name}-dark`));
+  await page.evaluate(() => {
+    document.querySelector("button.theme").click();
+    scrollTo({ top: 0, behavior: "instant" });
+  });
   await page.setViewportSize({ width: 1280, height: 900 });
 }
 
@@ -73,16 +84,16 @@ async function checkPage(browser, file, shots) {
   facts.push(`first paint after ${Math.round(paint)} ms`);
   if (paint > 3000) failures.push(`first paint after ${Math.round(paint)} ms, more than 3000`);
   if (shots) await screenshots(page, shots, basename(file, ".html"));
-  await check("unfolding", unfold);
-  await check("charts", charts);
-  await check("numbers", numbers);
+  await check("keyboard", keyboard);
+  await check("unfolding one test", () => unfold(page, false));
+  await check("accessibility, light", () => accessibility(page, false));
+  await check("accessibility, dark", () => accessibility(page, true));
   await check("sliders", sliders);
   await check("cut plane", cutPlane);
-  await check("keyboard", keyboard);
-  await check("accessibility, light", accessibility);
-  await page.evaluate(() => document.querySelector("button.theme").click());
-  await check("accessibility, dark", accessibility);
   await check("print", printing);
+  await check("unfolding all", () => unfold(page, true));
+  await check("charts", charts);
+  await check("numbers", numbers);
   failures.push(...seen.requests.map((url) => `request: ${url}`), ...seen.errors.map((text) => `console: ${text}`));
   facts.push(`${seen.requests.length} requests, ${seen.errors.length} errors`);
   await context.close();

@@ -15,7 +15,7 @@ interface Quantity {
   path: string;
 }
 
-export const AGAINST: Record<"strength" | "fabric" | "rubber", Quantity[]> = {
+export const AGAINST: Record<"strength" | "fabric", Quantity[]> = {
   strength: [
     { title: "Peak shear stress", label: "Peak shear stress", unit: "kPa", path: "peak_shear_stress_kPa" },
     { title: "Dilation angle", label: "Dilation angle", unit: "°", path: "dilation_angle_deg" },
@@ -27,15 +27,15 @@ export const AGAINST: Record<"strength" | "fabric" | "rubber", Quantity[]> = {
     { title: "Anisotropy of the normal forces", label: "aₙ", path: "micro_at_peak.a_n" },
     { title: "Anisotropy of the tangential forces", label: "aₜ", path: "micro_at_peak.a_t" },
     { title: "Bulk friction", label: "μ = Σfₜ / Σfₙ", path: "micro_at_peak.bulk_friction" },
+    { title: "Mean strain of the rubber bonds", label: "Bond strain, compression +", path: "micro_at_peak.rubber_bond_strain" },
   ],
-  rubber: [{ title: "Mean strain of the rubber bonds", label: "Bond strain, compression +", path: "micro_at_peak.rubber_bond_strain" }],
 };
 
 /** Rubber content is read in per cent. */
 function acrossOf(members: Members): { name: string; label: string; unit: string; factor: number } | null {
   if (members.across === null) return null;
   const vrc = members.across === "rubber_content";
-  return { name: members.across, label: labelOf(members.across), unit: vrc ? "%" : unitOf(members.across), factor: vrc ? 100 : 1 };
+  return { name: members.across, label: vrc ? "Rubber content VRC" : labelOf(members.across), unit: vrc ? "%" : unitOf(members.across), factor: vrc ? 100 : 1 };
 }
 
 function sorted(members: Member[], name: string): Member[] {

@@ -31,13 +31,21 @@ function campaignTable(campaign: Campaign, data: PageData, addressOf: (test: Tes
       el("th", { scope: "row" }, test ? el("a", { href: addressOf(test) }, one.name) : one.name),
       ...values.map((name) => {
         const value = one.values[name];
-        return el("td", { class: "number" }, typeof value === "number" ? withUnit(formatNumber(value), unitOf(name)) : (value ?? "–"));
+        const text = typeof value !== "number" ? (value ?? "–") : name === "rubber_content" ? withUnit(formatNumber(100 * value), "%") : withUnit(formatNumber(value), unitOf(name));
+        return el("td", { class: "number" }, text);
       }),
       el("td", {}, badge(verdict)),
       ...["peak_shear_stress_kPa", "residual_shear_stress_kPa"].map((name) => el("td", {}, test ? measured(test.summary, "summary", name) : "–")));
   });
-  return el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "Tests of the campaign" },
+  return el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": "Tests of the campaign" },
     el("table", { class: "wide-table" }, el("thead", {}, el("tr", {}, ...head)), el("tbody", {}, ...rows)));
+}
+
+/** Charts of a few points stand three in a row. */
+function small(...figures: HTMLElement[]): HTMLElement {
+  const box = charts(...figures);
+  box.classList.add("small");
+  return box;
 }
 
 export function campaignParts(campaign: Campaign, data: PageData, addressOf: (test: Test) => string): Part[] {
@@ -53,9 +61,9 @@ export function campaignParts(campaign: Campaign, data: PageData, addressOf: (te
     { id: "strength", title: "Strength", body: envelopes(campaign) },
     { id: "curves", title: "Curves", body: campaignCurves(members) },
     { id: "specimens", title: "Specimens", body: [specimenTable(members.members.map(({ test }) => test), addressOf), ...(published.length > 0 ? [el("h3", {}, "Published values"), ...published] : [])] },
-    { id: "content", title: "At the peak", body: [charts(...againstContent(members, AGAINST.strength, against))] },
-    { id: "fabric", title: "Contact network", body: [charts(polarMultiples(members), ...againstContent(members, AGAINST.fabric, against), ...strongAgainstContent(members))] },
-    { id: "rubber", title: "Rubber strain", body: [charts(...againstContent(members, AGAINST.rubber, against))] },
+    { id: "content", title: "Strength and density", short: "Density", body: [small(...againstContent(members, AGAINST.strength, against))] },
+    { id: "polar", title: "Directions of contacts and forces", short: "Directions", body: [charts(polarMultiples(members))] },
+    { id: "fabric", title: "Contact network at the peak", short: "Network", body: [small(...againstContent(members, AGAINST.fabric, against)), small(...strongAgainstContent(members))] },
   ];
   return parts;
 }

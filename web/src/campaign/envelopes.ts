@@ -25,13 +25,13 @@ function envelopeSeries(envelope: Envelope, place: number, at: string, far: numb
   const name = mixtureName(envelope.values);
   const { friction_angle_deg: angle, cohesion_kPa: cohesion, points } = envelope;
   const series: Series[] = [{
-    name, key: name, x: points.map((point) => point.normal_stress_kPa), y: points.map((point) => point.shear_stress_kPa), draw: "points",
-    colour: place, symbol: place, sourceX: (row) => `${at}.points.${row}.normal_stress_kPa`, sourceY: (row) => `${at}.points.${row}.shear_stress_kPa`,
+    name, key: name, x: points.map((point) => point.normal_stress_kPa), y: points.map((point) => point.shear_stress_kPa), draw: "points", sample: "both",
+    colour: place, symbol: place, dash: place, sourceX: (row) => `${at}.points.${row}.normal_stress_kPa`, sourceY: (row) => `${at}.points.${row}.shear_stress_kPa`,
   }];
   if (angle === null || cohesion === null) return series;
   const sigma = Array.from({ length: 21 }, (_, step) => (far * step) / 20);
   const middle = boundsAt(envelope, sigma);
-  return [...series, { name: `${name}, fit`, key: name, x: sigma, y: sigma.map((x) => cohesion + x * tangent(angle)), draw: "line", colour: place, dash: place, ...middle }];
+  return [...series, { name: `${name}, fit`, key: name, unlisted: true, x: sigma, y: sigma.map((x) => cohesion + x * tangent(angle)), draw: "line", colour: place, dash: place, ...middle }];
 }
 
 function envelopeTable(campaign: Campaign): HTMLElement {
@@ -50,7 +50,7 @@ function envelopeTable(campaign: Campaign): HTMLElement {
       el("td", {}, String(envelope.points.length)), el("td", {}, envelope.tests_still_rising > 0 ? String(envelope.tests_still_rising) : "none"));
   });
   const head = ["Mixture", "Stress", "Friction angle φ", "95 %", "Cohesion c", "95 %", "Tests", "still rising"];
-  return el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "Mohr-Coulomb envelopes" },
+  return el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": "Mohr-Coulomb envelopes" },
     el("table", { class: "wide-table" }, el("thead", {}, el("tr", {}, ...head.map((name) => el("th", { scope: "col" }, name)))), el("tbody", {}, ...rows)));
 }
 

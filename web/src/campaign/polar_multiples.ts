@@ -57,7 +57,7 @@ export function polarMultiples({ members, mixtures, stresses }: Members): HTMLEl
     }));
   const element = figure({
     title, picture, wide: true,
-    caption: ["Stored state nearest to the peak. Panels of one normal stress share their scale. Line: fitted curve; shaded: its 95 % bands."],
+    caption: ["Stored state nearest to the peak. Panels of one normal stress share their scale; 1/rad or N. Line: fitted curve; shaded: curves whose amplitude and direction lie in their 95 % bands."],
     table: () => ({
       columns: ["Test", "Displacement (mm)", "Angle (°)", `${QUANTITIES[quantity].title} (${QUANTITIES[quantity].unit})`, "fit"],
       rows: shown(members, chosen).flatMap(({ member, set, state, place, displacement }) => set.angle_deg.map((angle, row) => {

@@ -58,8 +58,8 @@ export function publishedTables(data: PageData): HTMLElement[] {
     if (shown.length === 0 || !places.some((place) => (matches[place]?.length ?? 0) > 0)) return [];
     const head = ["VRC", "Normal stress", "Published", "Here", "Difference", "in %", "Tests", "Source"].map((name) => el("th", { scope: "col" }, name));
     return [
-      el("h4", {}, labelOf(quantity)),
-      el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": `${labelOf(quantity)}, published and here` },
+      el("p", { class: "subtitle" }, labelOf(quantity)),
+      el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": `${labelOf(quantity)}, published and here` },
         el("table", { class: "wide-table" }, el("thead", {}, el("tr", {}, ...head)), el("tbody", {}, ...shown.flatMap((place) => rowsOf(data, place, matches[place] ?? []))))),
     ];
   });
@@ -73,6 +73,6 @@ export function specimenTable(tests: Test[], addressOf: (test: Test) => string):
   const head = ["Test", ...shown.map(labelOf)].map((name) => el("th", { scope: "col" }, name));
   const rows = tests.map((test) => el("tr", { "data-test": test.name },
     el("th", { scope: "row" }, el("a", { href: addressOf(test) }, test.name)), ...shown.map((name) => el("td", {}, measured(test.summary, "summary", name)))));
-  return el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "Specimens" },
+  return el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": "Specimens" },
     el("table", { class: "wide-table" }, el("thead", {}, el("tr", {}, ...head)), el("tbody", {}, ...rows)));
 }

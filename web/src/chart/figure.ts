@@ -45,7 +45,7 @@ export function dataTable(title: string, table: DataTable): HTMLElement {
   addRows(ROWS_AT_ONCE);
   const head = el("tr", {}, ...table.columns.map((name) => el("th", { scope: "col" }, name)));
   const grid = el("table", {}, el("caption", { class: "hidden-text" }, `Numbers of ${title}`), el("thead", {}, head), body);
-  const box = el("div", { class: "table-box tall", tabindex: 0, role: "region", "aria-label": `Numbers of ${title}` }, grid);
+  const box = el("div", { class: "table-box tall", tabindex: 0, role: "group", "aria-label": `Numbers of ${title}` }, grid);
   if (table.rows.length > ROWS_AT_ONCE) {
     const more = el("button", { type: "button", onclick: () => (addRows(Infinity), more.remove()) },
       `Show all ${table.rows.length} rows`);
@@ -80,10 +80,10 @@ export function figure(parts: FigureParts): HTMLElement {
   const caption = el("figcaption");
   append(caption, parts.caption ?? []);
   return el("figure", { class: parts.wide ? "chart wide" : "chart", "aria-labelledby": heading },
-    el("h4", { id: heading }, parts.title), parts.picture, parts.legend, caption, tools(parts));
+    el("p", { id: heading, class: "subtitle" }, parts.title), parts.picture, parts.legend, caption, tools(parts));
 }
 
 /** What stands where a chart has nothing to show. */
 export function emptyFigure(title: string, reason: string): HTMLElement {
-  return el("div", { class: "chart empty" }, el("h4", {}, title), el("p", {}, reason));
+  return el("div", { class: "chart empty" }, el("p", { class: "subtitle" }, title), el("p", {}, reason));
 }

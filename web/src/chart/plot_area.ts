@@ -49,12 +49,20 @@ function scaleOf(axis: Axis, low: number, high: number, range: [number, number],
 function ticksOf(axis: Axis, scale: Scale, count: number): number[] {
   if (axis.ticks) return axis.ticks;
   if (!axis.log) return scale.ticks(count);
-  // A log axis of less than two decades has no round powers: 1, 2, 5 and their multiples.
-  return scale.ticks(20).filter((tick) => /^[125]/.test(tick.toExponential()));
+  const [from = 1, to = 10] = scale.domain();
+  const decades = Math.log10(to / from);
+  // Whole decades where there are many; else 1, 2, 5 and their multiples; within one decade every digit.
+  const shown = decades > 3 ? /^1e/ : decades > 1 ? /^[125]e/ : /^\de/;
+  return scale.ticks(20).filter((tick) => shown.test(Number(tick.toPrecision(6)).toExponential()));
 }
 
-function tickText(axis: Axis, tick: number): string {
-  return axis.tickText ? axis.tickText(tick) : formatNumber(Number(tick.toPrecision(10)), 6);
+/** Ticks of one linear axis have the same decimals; those of a log axis are powers where they are small. */
+function tickText(axis: Axis, scale: Scale, count: number): (tick: number) => string {
+  if (axis.tickText) return axis.tickText;
+  if (axis.log) return (tick) => formatNumber(Number(tick.toPrecision(6)), 1);
+  if (axis.ticks) return (tick) => formatNumber(tick);
+  const text = scale.tickFormat(count);
+  return (tick) => text(tick).replace(/,/g, "\u202f");
 }
 
 /** `span`: [lowest, highest] of the data in x and y. */
@@ -63,7 +71,8 @@ export function plotArea(width: number, height: number, x: Axis, y: Axis, spanX:
   const bottom = height - 40;
   const ticksY = Math.max(3, Math.round((bottom - top) / 48));
   const scaleY = scaleOf(y, spanY[0], spanY[1], [bottom, top], ticksY);
-  const longest = Math.max(...ticksOf(y, scaleY, ticksY).map((tick) => tickText(y, tick).length), 1);
+  const textY = tickText(y, scaleY, ticksY);
+  const longest = Math.max(...ticksOf(y, scaleY, ticksY).map((tick) => textY(tick).length), 1);
   const left = 14 + 7.2 * longest;
   const right = width - 14;
   const scaleX = scaleOf(x, spanX[0], spanX[1], [left, right], Math.max(3, Math.round((right - left) / 80)));
@@ -72,22 +81,23 @@ export function plotArea(width: number, height: number, x: Axis, y: Axis, spanX:
 
 export function drawAxes(area: PlotArea, x: Axis, y: Axis): SVGElement[] {
   const { left, right, top, bottom } = area;
-  const ticksX = ticksOf(x, area.x, Math.max(3, Math.round((right - left) / 80)));
-  const ticksY = ticksOf(y, area.y, Math.max(3, Math.round((bottom - top) / 48)));
+  const [countX, countY] = [Math.max(3, Math.round((right - left) / 80)), Math.max(3, Math.round((bottom - top) / 48))];
+  const [ticksX, ticksY] = [ticksOf(x, area.x, countX), ticksOf(y, area.y, countY)];
+  const [textX, textY] = [tickText(x, area.x, countX), tickText(y, area.y, countY)];
   const parts: SVGElement[] = [];
   const inside = (value: number, from: number, to: number) => value >= from - 0.5 && value <= to + 0.5;
   for (const tick of ticksY) {
     const at = area.y(tick);
     if (!inside(at, top, bottom)) continue;
     parts.push(svg("line", { class: tick === 0 ? "grid zero" : "grid", x1: left, x2: right, y1: at, y2: at }));
-    parts.push(svg("text", { class: "tick", x: left - 7, y: at + 4, "text-anchor": "end" }, tickText(y, tick)));
+    parts.push(svg("text", { class: "tick", x: left - 7, y: at + 4, "text-anchor": "end" }, textY(tick)));
   }
   let free = -Infinity;
   for (const tick of ticksX) {
     const at = area.x(tick);
     if (!inside(at, left, right)) continue;
     parts.push(svg("line", { class: "axis", x1: at, x2: at, y1: bottom, y2: bottom + 5 }));
-    const text = tickText(x, tick);
+    const text = textX(tick);
     const half = text.length * 3.6;
     if (at - half < free) continue;
     free = at + half + 4;

@@ -9,7 +9,6 @@ import { colourClass } from "./style.ts";
 
 export interface PolarPanel {
   title: string;
-  unit: string;
   angle_deg: number[];
   values: (number | null)[];
   fit: (number | null)[];
@@ -23,9 +22,9 @@ export interface PolarPanel {
   description: string;
 }
 
-const WIDTH = 260;
-const HEIGHT = 276;
-const CENTRE = [130, 152] as const;
+const WIDTH = 284;
+const HEIGHT = 262;
+const CENTRE = [142, 138] as const;
 const RADIUS = 98;
 
 /** d3 counts from up, clockwise. */
@@ -51,9 +50,11 @@ function labels(scale: (value: number) => number, limit: number, signed: boolean
   const parts: SVGElement[] = [];
   const ticks = scaleLinear([signed ? -limit : 0, limit], [0, 1]).ticks(signed ? 4 : 3);
   const [x, y] = [Math.cos((-52 * Math.PI) / 180), Math.sin((-52 * Math.PI) / 180)];
+  let free = 16;
   for (const tick of ticks) {
-    if (scale(tick) < 16 || Math.abs(tick) > limit) continue;
     const at = scale(tick);
+    if (at < free || Math.abs(tick) > limit) continue;
+    free = at + 20;
     parts.push(svg("text", { class: "tick ring", x: x * at, y: -y * at + 4, "text-anchor": "middle" }, formatNumber(Number(tick.toPrecision(8)))));
   }
   for (const [text, dx, dy, anchor] of [["0°", RADIUS + 5, 4, "start"], ["90°", 0, -RADIUS - 6, "middle"], ["180°", -RADIUS - 5, 4, "end"], ["270°", 0, RADIUS + 15, "middle"]] as const) {
@@ -85,7 +86,7 @@ function curve(panel: PolarPanel, scale: (value: number) => number): SVGElement[
     const region = areaRadial<number>().curve(curveLinearClosed).angle(clockwise)
       .innerRadius((angle) => Math.max(0, scale(bandAt(band, angle)[0])))
       .outerRadius((angle) => Math.max(0, scale(bandAt(band, angle)[1])));
-    parts.push(svg("path", { class: "band", d: region.curve(curveLinearClosed)(angles) ?? "", "fill-rule": "evenodd" }));
+    parts.push(svg("path", { class: "band", d: region(angles) ?? "", "fill-rule": "evenodd" }));
   }
   const fitted = panel.angle_deg.map((angle, row) => [angle, panel.fit[row] ?? null] as const).filter(([, value]) => value !== null);
   if (fitted.length > 2) {
@@ -103,7 +104,6 @@ export function polarPanel(panel: PolarPanel): SVGSVGElement {
   const picture = svg("svg", { class: "plot polar", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": panel.description });
   picture.append(
     svg("text", { class: "panel-title", x: WIDTH / 2, y: 13, "text-anchor": "middle" }, panel.title),
-    svg("text", { class: "tick", x: WIDTH / 2, y: 29, "text-anchor": "middle" }, panel.unit),
     svg("g", { class: `series ${colourClass(panel.colour ?? 0)}`, transform: `translate(${CENTRE.join(" ")})` },
       ...rings(scale, limit, signed), ...bins(panel, scale), ...curve(panel, scale), ...labels(scale, limit, signed)),
   );

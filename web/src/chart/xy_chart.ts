@@ -21,6 +21,10 @@ export interface Series extends Look {
   key?: string;
   /** In the background, without legend. */
   quiet?: boolean;
+  /** Stands in the legend with the series of the same key. */
+  unlisted?: boolean;
+  /** In the legend, where it stands for several. */
+  sample?: "line" | "points" | "both";
   /** Columns of the data, as shear.displacement_mm, and the test that they belong to; or what names the place of each row. */
   sourceX?: string | ((row: number) => string);
   sourceY?: string | ((row: number) => string);
@@ -266,8 +270,8 @@ export function xyChart(spec: XyChart): HTMLElement {
   charts += 1;
   const group = spec.group ?? new ChartGroup();
   const plot = new Plot(spec, group, `clip-${charts}`);
-  const listed = spec.series.filter((series) => !series.quiet);
-  const entries = listed.map((series) => ({ ...series, key: series.key ?? series.name }));
+  const listed = spec.series.filter((series) => !series.quiet && !series.unlisted);
+  const entries = listed.map((series) => ({ ...series, key: series.key ?? series.name, draw: series.sample ?? series.draw }));
   const names = spec.legend === false ? null : legend(entries, group, spec.title);
   const readout = el("p", { class: "readout", "aria-live": "polite" });
 

@@ -4,24 +4,8 @@ import type { Test } from "../data.ts";
 import { emptyFigure } from "../chart/figure.ts";
 import { ChartGroup } from "../chart/group.ts";
 import { type Mark, xyChart } from "../chart/xy_chart.ts";
-import { type Column, column, hasNumbers } from "../tables.ts";
+import { column, hasNumbers, slope } from "../tables.ts";
 import { measured, numberAt } from "../value.ts";
-
-/** Slope of y over x by least squares in a window of `half` rows to each side; null where the window is cut off. */
-export function slope(x: Column, y: Column, half: number): Column {
-  return x.map((_, row) => {
-    const rows = Array.from({ length: 2 * half + 1 }, (_, step) => row - half + step);
-    const points = rows.flatMap((at): [number, number][] => {
-      const [here, there] = [x[at] ?? null, y[at] ?? null];
-      return here === null || there === null ? [] : [[here, there]];
-    });
-    if (points.length < rows.length) return null;
-    const mean = (place: 0 | 1) => points.reduce((sum, point) => sum + point[place], 0) / points.length;
-    const [meanX, meanY] = [mean(0), mean(1)];
-    const spread = points.reduce((sum, [here]) => sum + (here - meanX) ** 2, 0);
-    return spread > 0 ? points.reduce((sum, [here, there]) => sum + (here - meanX) * (there - meanY), 0) / spread : null;
-  });
-}
 
 const STRAIN = { label: "Strain", exact: true, low: 0 };
 const HALF_WINDOW = 2;

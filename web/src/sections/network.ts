@@ -125,6 +125,19 @@ function strongNetwork(test: Test, group: ChartGroup): HTMLElement {
   });
 }
 
+function sliding(test: Test, group: ChartGroup): HTMLElement {
+  return xyChart({
+    title: "Sliding contacts", x: DISPLACEMENT, y: { label: "Share of the contacts", low: 0 }, group,
+    caption: atEnd(test, [["all", "sliding_all"], ["g–g", "sliding_gg"], ["g–r", "sliding_gr"], ["r–r", "sliding_rr"]]),
+    series: present(
+      microSeries(test, "All contacts", "sliding_all", { colour: 0 }),
+      microSeries(test, "Gravel–gravel", "sliding_gg", { colour: 1, dash: 1 }),
+      microSeries(test, "Gravel–rubber", "sliding_gr", { colour: 2, dash: 2 }),
+      microSeries(test, "Rubber–rubber", "sliding_rr", { colour: 3, dash: 3 }),
+    ),
+  });
+}
+
 function coordination(test: Test, group: ChartGroup): HTMLElement | null {
   const series = present(
     microSeries(test, "Contacts of a grain", "coordination", { colour: 0 }),
@@ -142,7 +155,7 @@ export function networkCharts(test: Test, group: ChartGroup): (HTMLElement | nul
   if (!hasNumbers(column(test.tables.micro, "a_all"))) {
     return [emptyFigure("Contact network", "There are no rows of micro.csv yet.")];
   }
-  return [anisotropy(test, group), directions(test, group), bulkFriction(test, group), strongNetwork(test, group), coordination(test, group)];
+  return [anisotropy(test, group), directions(test, group), bulkFriction(test, group), strongNetwork(test, group), sliding(test, group), coordination(test, group)];
 }
 
 /** null: a test without rubber. */

@@ -62,6 +62,6 @@ export function testTable(tests: Test[], addressOf: (test: Test) => string): HTM
     el("th", { scope: "row" }, el("a", { href: addressOf(test) }, test.name)), el("td", {}, badge(testVerdict(test))),
     ...shown.map(([, name]) => el("td", {}, measured(test.summary, "summary", name)))));
   const head = el("tr", {}, ...["Test", "State", ...shown.map(([text]) => text)].map((name) => el("th", { scope: "col" }, name)));
-  return el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": "All tests" },
+  return el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": "All tests" },
     el("table", { class: "wide-table" }, el("thead", {}, head), el("tbody", {}, ...rows)));
 }

@@ -96,7 +96,7 @@ function coefficientElement({ symbol, value, source, unit, band }: Coefficient):
 export function panelOf(set: HistogramSet, quantity: Quantity, limit: number, title: string, description: string): PolarPanel {
   const text = QUANTITIES[quantity];
   return {
-    title, unit: text.unit, angle_deg: set.angle_deg, values: set[quantity], fit: set.fit[quantity], band: bandOf(set, quantity), limit,
+    title, angle_deg: set.angle_deg, values: set[quantity], fit: set.fit[quantity], band: bandOf(set, quantity), limit,
     signed: quantity === "signed_shear_force_N", colour: text.colour, description,
   };
 }
@@ -127,7 +127,6 @@ export function polarFigure(test: Test): HTMLElement {
   const title = "Polar histograms";
   if (test.histograms.length === 0) return emptyFigure(title, "No state is stored yet.");
   const picture = el("div", { class: "panels four" });
-  const words = el("div", { class: "coefficients" });
   let state = 0;
   let chosen = "";
   const setsNamed = (name: string) => test.histograms.map((one) => one.sets.find((set) => set.set === name)).filter((set): set is HistogramSet => !!set);
@@ -136,14 +135,13 @@ export function polarFigure(test: Test): HTMLElement {
     const here = test.histograms[state];
     const set = here?.sets.find((one) => one.set === chosen);
     picture.replaceChildren();
-    words.replaceChildren();
     if (!here || !set) return;
     for (const quantity of QUANTITY_NAMES) {
       const found = coefficients(test, set, here.displacement_mm, quantity);
       const text = QUANTITIES[quantity];
       const description = `${text.title} of ${SET_NAMES[set.set] ?? set.set} at ${withUnit(formatNumber(here.displacement_mm), "mm")}. ${found.map(coefficientText).join(", ")}`;
-      picture.append(polarPanel(panelOf(set, quantity, limitOf(setsNamed(chosen), quantity), text.title, description)));
-      words.append(el("p", {}, el("strong", {}, text.title), ...found.map(coefficientElement)));
+      const panel = polarPanel(panelOf(set, quantity, limitOf(setsNamed(chosen), quantity), `${text.title}, ${text.unit}`, description));
+      picture.append(el("div", { class: "panel" }, panel, el("p", {}, ...found.map(coefficientElement))));
     }
   };
   const controls = el("div", { class: "controls" },
@@ -157,7 +155,7 @@ export function polarFigure(test: Test): HTMLElement {
     }));
   const element = figure({
     title, picture, wide: true,
-    caption: [words, "Sectors: means of the bins. Line: fitted curve. Shaded: curves whose amplitude and direction lie in their 95 % bands. 0° is the shear direction, 90° is up. In the signed force zero is the middle ring; outwards is positive."],
+    caption: ["Sectors: means of the bins. Line: fitted curve. Shaded: curves whose amplitude and direction lie in their 95 % bands. 0° is the shear direction, 90° is up. In the signed force zero is the middle ring; outwards is positive."],
     table: () => {
       const here = test.histograms[state];
       const places = here ? here.sets.map((_, place) => place) : [];

@@ -73,7 +73,6 @@ export function profileCharts(test: Test): HTMLElement[] {
       return [xyChart({
         title: profile.title, x: { label: profile.label, unit: profile.unit }, y: { label: "Height", unit: "mm", low: 0 }, series: [...behind, ...front],
         height: 300, cursor: "nearest", group, legend: front.length > 1,
-        caption: [`At ${withUnit(formatNumber(state, 3), "mm")}; grey: the other states.`],
       })];
     });
   };
@@ -82,7 +81,7 @@ export function profileCharts(test: Test): HTMLElement[] {
     const figures = made.get(state) ?? figuresOf(state);
     made.set(state, figures);
     box.replaceChildren(...figures);
-    words.replaceChildren(...shearBand(test, state));
+    words.replaceChildren(...shearBand(test, state), " Grey lines: the other states.");
   });
   return [el("div", { class: "controls" }, control), words, box];
 }

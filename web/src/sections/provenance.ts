@@ -11,7 +11,7 @@ export function inputs(test: Test): HTMLElement[] {
   return test.inputs.map(({ section, rows }) =>
     el("details", { class: "inputs" },
       el("summary", {}, section === "" ? "Case" : `[${section}]`, el("span", { class: "count" }, ` ${rows.length} keys`)),
-      el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": `Inputs of ${section || "the case"}` },
+      el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": `Inputs of ${section || "the case"}` },
         el("table", { class: "wide-table" },
           el("thead", {}, el("tr", {}, ...["Key", "Value", "Meaning"].map((name) => el("th", { scope: "col" }, name)))),
           el("tbody", {}, ...rows.map((row) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, row.key)), el("td", { class: "text" }, row.value), el("td", { class: "prose" }, row.comment))))))));
@@ -30,7 +30,7 @@ export function allNumbers(test: Test): HTMLElement | null {
   box.addEventListener("toggle", () => {
     if (!box.open || box.querySelector("table")) return;
     const body = rows.map(([path, value]) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, path)), el("td", {}, scalar(value, `summary.${path}`))));
-    box.append(el("div", { class: "table-box tall", tabindex: 0, role: "region", "aria-label": `All numbers of ${test.name}` },
+    box.append(el("div", { class: "table-box tall", tabindex: 0, role: "group", "aria-label": `All numbers of ${test.name}` },
       el("table", {}, el("thead", {}, el("tr", {}, el("th", { scope: "col" }, "Name"), el("th", { scope: "col" }, "Value"))), el("tbody", {}, ...body))));
   });
   return box;
@@ -41,7 +41,7 @@ const FACTS = ["version", "commit", "compiler", "build_type", "processor_target"
 export function provenance(test: Test): HTMLElement[] {
   const facts = FACTS.filter((name) => test.summary[name] !== undefined && test.summary[name] !== null);
   return [
-    el("h4", {}, "Command that repeats the test"), command(test.command),
+    el("p", { class: "subtitle" }, "Command that repeats the test"), command(test.command),
     el("dl", { class: "plain" },
       el("dt", {}, "Folder"), el("dd", { class: "text" }, test.folder),
       ...(test.state_hash ? [el("dt", {}, "Hash of the last state"), el("dd", {}, el("code", {}, test.state_hash))] : []),

@@ -18,11 +18,11 @@ export function qualityPanel(test: Test): HTMLElement[] {
     el("tr", {}, el("th", { scope: "row" }, capital(line.name)), el("td", {}, numberSpan(line.value, `quality.${place}.value`, line.unit)),
       el("td", { class: "prose" }, line.limit), el("td", {}, toneBadge(line.verdict)))]);
   const head = el("tr", {}, ...["Check", "Value", "What is good, and why", "Verdict"].map((name) => el("th", { scope: "col" }, name)));
-  const table = el("div", { class: "table-box", tabindex: 0, role: "region", "aria-label": `Checks of ${test.name}` },
+  const table = el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": `Checks of ${test.name}` },
     el("table", { class: "wide-table" }, el("thead", {}, head), el("tbody", {}, ...rows)));
   const words = warnings.length === 0
     ? el("p", {}, "The program gave no warnings.")
-    : el("div", {}, el("h4", {}, warnings.length === 1 ? "One warning of the program" : `${warnings.length} warnings of the program`),
+    : el("div", {}, el("p", { class: "subtitle" }, warnings.length === 1 ? "One warning of the program" : `${warnings.length} warnings of the program`),
       el("ul", { class: "warnings" }, ...warnings.map((text) => el("li", {}, el("pre", {}, text)))));
   return [el("p", {}, badge(verdict)), ...(rows.length > 0 ? [table] : []), words];
 }

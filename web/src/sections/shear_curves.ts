@@ -145,6 +145,21 @@ function voidRatio(test: Test, group: ChartGroup): HTMLElement {
   });
 }
 
+/** How near the test was to rest; a log axis knows no zero. */
+export function equilibriumChart(test: Test, group: ChartGroup): HTMLElement | null {
+  const names: [string, string][] = [["unbalanced_ratio", "Unbalanced force"], ["half_force_imbalance", "Difference of the halves"], ["inertial_number", "Inertial number"]];
+  const series = present(...names.map(([key, name], place) => shearSeries(test, name, key, { colour: place, dash: place })));
+  for (const one of series) one.y = one.y.map((value) => (value !== null && value > 0 ? value : null));
+  const s = test.summary;
+  if (!series.some((one) => hasNumbers(one.y))) return null;
+  return xyChart({
+    title: "Equilibrium", x: DISPLACEMENT, y: { label: "Ratio", log: true }, group, series: series.filter((one) => hasNumbers(one.y)),
+    caption: numberAt(s, "unbalanced_ratio_mean") === null ? [] : [
+      "Mean unbalanced force ", measured(s, "summary", "unbalanced_ratio_mean"), ", mean difference of the halves ", measured(s, "summary", "half_force_imbalance_mean"),
+      ", largest inertial number ", measured(s, "summary", "inertial_number_max"), "."],
+  });
+}
+
 export function energyChart(test: Test, group: ChartGroup): HTMLElement | null {
   const names: [string, string][] = [
     ["boundary_work_J", "Work of the walls"], ["slip_J", "Slip"], ["local_damping_J", "Local damping"], ["dashpot_J", "Dashpots"],

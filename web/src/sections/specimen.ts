@@ -21,8 +21,9 @@ export function sieveChart(test: Test): HTMLElement {
     return [asked, sieved].filter((one) => hasNumbers(one.y));
   });
   if (series.length === 0) return emptyFigure(title, "No specimen is stored.");
+  const openings = materials.flatMap((material) => material.sieve_mm).filter((opening) => opening > 0);
   return xyChart({
-    title, x: { label: "Sieve opening", unit: "mm", log: true }, y: { label: "Passing by mass", unit: "%", low: 0, high: 100 },
+    title, x: { label: "Sieve opening", unit: "mm", log: true, low: 0.9 * Math.min(...openings), high: 1.05 * Math.max(...openings), exact: true }, y: { label: "Passing by mass", unit: "%", low: 0, high: 100 },
     series, cursor: "nearest", caption: ["Square openings, shares by mass."],
   });
 }

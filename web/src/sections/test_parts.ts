@@ -10,7 +10,7 @@ import { polarFigure } from "./polar.ts";
 import { profileCharts } from "./profiles.ts";
 import { inputs, provenance } from "./provenance.ts";
 import { qualityPanel } from "./quality.ts";
-import { energyChart, shearCharts } from "./shear_curves.ts";
+import { energyChart, equilibriumChart, shearCharts } from "./shear_curves.ts";
 import { sieveChart, wallCharts } from "./specimen.ts";
 import { viewSection } from "./view_section.ts";
 
@@ -19,12 +19,12 @@ function directShear(test: Test, data: PageData, id: (name: string) => string): 
   const shear = new ChartGroup(`shear:${test.name}`);
   const rubber = rubberCharts(test, shear);
   return [
-    { id: id("curves"), title: "Stress and volume change", body: [charts(...shearCharts(test, data.laboratory, shear))] },
-    { id: id("network"), title: "Contact network", body: [charts(...networkCharts(test, shear), polarFigure(test))] },
-    { id: id("rubber"), title: "Rubber strain", body: rubber ? [charts(...rubber)] : ["The specimen holds no rubber."] },
-    { id: id("profiles"), title: "Profiles over the height", body: profileCharts(test) },
-    { id: id("specimen"), title: "Grading and walls", body: [charts(sieveChart(test), ...wallCharts(test, shear))] },
-    { id: id("quality"), title: "Quality", body: [...qualityPanel(test), charts(energyChart(test, shear))] },
+    { id: id("curves"), title: "Stress and volume change", short: "Stress", body: [charts(...shearCharts(test, data.laboratory, shear))] },
+    { id: id("network"), title: "Contact network", short: "Network", body: [charts(...networkCharts(test, shear), polarFigure(test))] },
+    { id: id("rubber"), title: "Rubber strain", short: "Rubber", body: rubber ? [charts(...rubber)] : ["The specimen holds no rubber."] },
+    { id: id("profiles"), title: "Profiles over the height", short: "Profiles", body: profileCharts(test) },
+    { id: id("specimen"), title: "Grading and walls", short: "Grading", body: [charts(sieveChart(test), ...wallCharts(test, shear))] },
+    { id: id("quality"), title: "Quality", body: [...qualityPanel(test), charts(energyChart(test, shear), equilibriumChart(test, shear))] },
   ];
 }
 
@@ -34,7 +34,7 @@ export function testParts(test: Test, data: PageData, prefix: string): Part[] {
   const middle: Record<Test["kind"], () => Part[]> = {
     direct_shear: () => directShear(test, data, id),
     grain_compression: () => [
-      { id: id("curves"), title: "Load and stiffness", body: [charts(...compressionCharts(test))] },
+      { id: id("curves"), title: "Load and stiffness", short: "Load", body: [charts(...compressionCharts(test))] },
       { id: id("quality"), title: "Quality", body: qualityPanel(test) },
     ],
     specimen: () => [

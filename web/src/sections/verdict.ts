@@ -23,12 +23,21 @@ function inSentence(name: string): string {
   return /^[A-Z][a-z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
 }
 
+/** What a line is about, without what is measured of it: "inertial number, largest" is about the inertial number. */
+function subjects(lines: QualityLine[], verdict: Tone): string[] {
+  const names = lines.filter((line) => line.verdict === verdict).map((line) => inSentence(line.name.split(",")[0] ?? ""));
+  return [...new Set(names)].map((name) => {
+    const count = names.filter((one) => one === name).length;
+    return name.startsWith("warning") ? `${count} ${count === 1 ? name : name.replace("warning", "warnings")}` : name;
+  });
+}
+
 export function qualityVerdict(lines: QualityLine[]): Verdict {
-  const named = (verdict: Tone) => [...new Set(lines.filter((line) => line.verdict === verdict).map((line) => inSentence(line.name)))];
+  const named = (verdict: Tone) => subjects(lines, verdict);
   const bad = named("bad");
   const doubtful = named("warning");
   if (bad.length > 0) return { tone: "bad", text: `do not use without care: ${list(bad)}` };
-  if (doubtful.length > 0) return { tone: "warning", text: `look at ${list(doubtful)}` };
+  if (doubtful.length > 0) return { tone: "warning", text: `look at: ${list(doubtful)}` };
   if (named("good").length === 0) return { tone: "unknown", text: "quality not known yet" };
   return { tone: "good", text: "all checks passed" };
 }

@@ -5,20 +5,23 @@ import { createRequire } from "node:module";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-/** Opens what is folded, so that later checks see it, and waits until all charts are drawn. */
-export async function unfold(page) {
-  const opened = await page.evaluate(async () => {
+/** Opens what is folded and waits until its charts are drawn: of the first test all but the many numbers behind its charts, or
+ * everything. */
+export async function unfold(page, everything) {
+  const opened = await page.evaluate(async (all) => {
     let count = 0;
     // Opening a test makes further folded parts.
     for (let round = 0; round < 4; round += 1) {
       for (const box of document.querySelectorAll("details:not([open])")) {
+        const test = box.closest("details.test");
+        if (!all && ((test && test !== document.querySelector("details.test")) || box.matches(".tools:not(.chart:first-child > .tools)"))) continue;
         box.open = true;
         count += 1;
       }
-      await new Promise((done) => setTimeout(done, 60));
+      await new Promise((done) => setTimeout(done, 40));
     }
     return count;
-  });
+  }, everything);
   return { problems: [], fact: `${opened} parts` };
 }
 
@@ -28,7 +31,7 @@ export async function charts(page) {
     const problems = [];
     const figures = [...document.querySelectorAll("figure.chart")];
     for (const figure of figures) {
-      const title = figure.querySelector("h4").textContent;
+      const title = figure.querySelector(".subtitle").textContent;
       for (const plot of figure.querySelectorAll("svg.plot")) {
         const marks = [...plot.querySelectorAll(".series .line, .series .symbol, .series .bin")];
         if (!marks.some((mark) => (mark.getAttribute("d") ?? "").length > 8)) problems.push(`${title}: nothing is drawn`);
@@ -83,23 +86,29 @@ export async function numbers(page) {
   });
 }
 
-/** Each slider of the charts, moved by the keyboard, changes the picture that it belongs to. */
+/** Each slider and each choice of the charts changes the picture that it belongs to. */
 export async function sliders(page) {
-  const found = await page.locator("section input[type=range]:not(.specimen-view input)").all();
-  const problems = [];
-  for (const slider of found) {
-    const picture = () => slider.evaluate((input) => {
-      const owner = input.closest("figure") ?? input.closest("section");
-      return [...owner.querySelectorAll("svg.plot")].map((plot) => plot.outerHTML).join("");
-    });
-    const name = await slider.evaluate((input) => input.labels[0]?.textContent ?? "without label");
-    const before = await picture();
-    const key = await slider.evaluate((input) => (Number(input.value) > 0 ? "ArrowLeft" : "ArrowRight"));
-    await slider.press(key);
-    await page.waitForTimeout(80);
-    if ((await picture()) === before) problems.push(`slider "${name}" changes nothing`);
-  }
-  return { problems, fact: `${found.length} sliders` };
+  return page.evaluate(async () => {
+    const problems = [];
+    const found = [...document.querySelectorAll(".controls input[type=range], .controls fieldset")];
+    for (const control of found) {
+      const owner = control.closest("figure") ?? control.closest("section");
+      const picture = () => [...owner.querySelectorAll("svg.plot")].map((plot) => plot.outerHTML).join("");
+      const before = picture();
+      const other = control.querySelector("input:not(:checked)");
+      if (control.tagName === "FIELDSET" && !other) continue;
+      if (other) other.click();
+      else {
+        control.value = String(Number(control.value) > 0 ? Number(control.value) - 1 : 1);
+        control.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0)));
+      }
+      const name = control.querySelector("legend")?.textContent ?? control.labels?.[0]?.textContent;
+      if (!name) problems.push("a slider has no label");
+      if (picture() === before) problems.push(`"${name}" changes nothing`);
+    }
+    return { problems, fact: `${found.length} controls` };
+  });
 }
 
 /** Where the page shows the specimen, it is drawn, and the cut plane changes what is seen. */
@@ -110,24 +119,27 @@ export async function cutPlane(page) {
   await box.scrollIntoViewIfNeeded();
   const canvas = box.locator("canvas").first();
   await canvas.waitFor({ state: "visible", timeout: 10000 });
-  await page.waitForFunction(() => document.querySelector(".specimen-view [data-drawn], .specimen-view canvas[data-drawn]") !== null, null, { timeout: 3000 }).catch(() => page.waitForTimeout(1500));
-  const unpacked = Date.now() - begun;
-  const before = await canvas.screenshot();
-  const sliders = await box.locator("input[type=range]").all();
-  let cut = null;
-  for (const slider of sliders) {
-    const words = await slider.evaluate((input) => `${input.getAttribute("aria-label") ?? ""} ${[...(input.labels ?? [])].map((label) => label.textContent).join(" ")}`);
-    if (/cut/i.test(words)) cut = slider;
-  }
-  if (!cut) return { problems: ["the view has no slider for the cut plane"], fact: "" };
-  await cut.evaluate((input) => {
-    input.value = String((Number(input.min) + Number(input.max)) / 2);
-    input.dispatchEvent(new Event("input", { bubbles: true }));
-    input.dispatchEvent(new Event("change", { bubbles: true }));
-  });
-  await page.waitForTimeout(1200);
-  const after = await canvas.screenshot();
-  return { problems: before.equals(after) ? ["the cut plane changes nothing"] : [], fact: `unpacked in ${unpacked} ms` };
+  const picture = async () => (await canvas.screenshot()).toString("base64");
+  /** Software rendering takes its time: waits until the picture is another one. */
+  const changes = async (before) => {
+    for (let wait = 0; wait < 20; wait += 1) {
+      const now = await picture();
+      if (now !== before) return now;
+      await page.waitForTimeout(150);
+    }
+    return null;
+  };
+  const whole = await changes("");
+  const drawn = Date.now() - begun;
+  const cut = box.locator("fieldset", { has: page.locator("legend", { hasText: /^Cut/ }) });
+  if ((await cut.count()) === 0) return { problems: ["the view has no cut plane"], fact: "" };
+  await cut.locator("select").first().selectOption("y");
+  const half = await changes(whole);
+  if (half === null) return { problems: ["the cut plane changes nothing"], fact: "" };
+  await cut.locator("input[type=range]").first().press("Home");
+  const problems = (await changes(half)) === null ? ["moving the cut plane changes nothing"] : [];
+  await cut.locator("select").first().selectOption("none");
+  return { problems, fact: `in sight after ${drawn} ms` };
 }
 
 /** Tab reaches every control that can be seen. */
@@ -163,17 +175,20 @@ export async function keyboard(page) {
   }, count);
 }
 
-export async function accessibility(page) {
-  await page.evaluate(axe);
-  const found = await page.evaluate(async () => {
-    const result = await window.axe.run(document, { resultTypes: ["violations"], runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] });
+/** All rules of axe in light; in dark those of colours, since nothing else depends on them. */
+export async function accessibility(page, dark) {
+  if (dark) await page.evaluate(() => document.querySelector("button.theme").click());
+  else await page.evaluate(axe);
+  const found = await page.evaluate(async (rules) => {
+    const result = await window.axe.run(document, { resultTypes: ["violations"], runOnly: rules });
     return result.violations.map(({ id, impact, help, nodes }) => ({ id, impact, help, count: nodes.length, first: nodes[0]?.html.slice(0, 160), why: nodes[0]?.failureSummary }));
-  });
+  }, dark ? { type: "rule", values: ["color-contrast"] } : { type: "tag", values: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] });
+  if (dark) await page.evaluate(() => document.querySelector("button.theme").click());
   const serious = found.filter(({ impact }) => impact === "serious" || impact === "critical");
-  const lesser = found.filter((one) => !serious.includes(one)).map(({ id }) => id);
+  const lesser = found.filter((one) => !serious.includes(one)).map(({ id, first }) => `${id} at ${first}`);
   return {
     problems: serious.map(({ id, help, count, first, why }) => `${id} (${count}): ${help}; first ${first}; ${why}`),
-    fact: lesser.length > 0 ? `lesser findings ${lesser.join(", ")}` : "",
+    fact: lesser.length > 0 ? `lesser findings: ${lesser.join("; ")}` : "",
   };
 }
 
