@@ -7,6 +7,8 @@ import type * as THREE from "three";
 /** A picture that takes longer than this is made with fewer pixels while the view turns. */
 const SLOW_MILLISECONDS = 50;
 const REST_MILLISECONDS = 160;
+/** Fewer pixels than this make no picture faster: what remains is the work for each ball. */
+const LEAST_SCALE = 0.4;
 
 export interface PainterOptions {
   canvas: HTMLCanvasElement;
@@ -20,6 +22,15 @@ export interface PainterOptions {
   painted: () => void;
 }
 
+/** A picture that the graphics processor was told to make. */
+interface Ordered {
+  fence: WebGLSync;
+  at: number;
+  coarse: boolean;
+  /** Of the last request that it serves. */
+  order: number;
+}
+
 export class Painter {
   /** From the order to the end on the graphics processor, of the last picture with all pixels. */
   drawMilliseconds = 0;
@@ -28,13 +39,11 @@ export class Painter {
   private coarse = false;
   private scale: number;
   private movedAt = -Infinity;
-  private fence: WebGLSync | null = null;
-  private drawnAt = 0;
+  private underWay: Ordered[] = [];
   private scheduled = 0;
   private waiting: (() => void)[] = [];
   private firstWaiting: { order: number; resolve: () => void }[] = [];
   private ordered = 0;
-  private painted = 0;
   private held = 0;
   private over = false;
 
@@ -60,6 +69,16 @@ export class Painter {
   first(): Promise<void> {
     this.request(false);
     return new Promise((resolve) => this.firstWaiting.push({ order: this.ordered, resolve }));
+  }
+
+  /** Resolves when the picture with all pixels shows what was set, at once if it does already. */
+  sharp(): Promise<void> {
+    return this.dirty || this.coarse ? this.first() : Promise.resolve();
+  }
+
+  /** A picture at once, before the browser goes on: for the printer. */
+  paintNow(): void {
+    if (this.held === 0) this.paint(0, 1);
   }
 
   /** Resolves when the picture is as smooth as it gets. */
@@ -91,7 +110,9 @@ export class Painter {
   private tick(): void {
     this.scheduled = 0;
     if (this.held > 0 || this.over) return;
-    if (this.fence && !this.settled()) return this.schedule();
+    this.settle();
+    // A slow machine must not fall behind the viewer's hand; a quick one tells of the end of a picture a little late.
+    if (this.underWay.length >= (this.options.slow ? 1 : 2)) return this.schedule();
     const moving = performance.now() - this.movedAt < REST_MILLISECONDS;
     if (this.dirty) {
       this.dirty = false;
@@ -102,48 +123,52 @@ export class Painter {
       this.paint(0, 1);
     } else if (this.samples < this.wantedSamples) {
       this.paint(this.samples, 1);
+    } else if (this.underWay.length > 0) {
+      this.schedule();
     } else {
       for (const resolve of this.waiting.splice(0)) resolve();
     }
   }
 
-  /** Whether the graphics processor is done with the last picture; no further one is ordered before it is. */
-  private settled(): boolean {
+  /** Takes note of the pictures that the graphics processor has finished. */
+  private settle(): void {
     const { gl } = this.options;
-    const status = gl.clientWaitSync(this.fence!, gl.SYNC_FLUSH_COMMANDS_BIT, 0);
-    if (status === gl.TIMEOUT_EXPIRED) return false;
-    gl.deleteSync(this.fence);
-    this.fence = null;
-    const took = performance.now() - this.drawnAt;
-    if (!this.coarse) this.drawMilliseconds = took;
-    // A picture ends at the next refresh of the screen at the earliest, so only the slow side is measured.
-    if (this.coarse || this.scale === 1) {
-      if (took > SLOW_MILLISECONDS) this.scale = Math.max(0.25, this.scale * 0.75);
-      else if (took < SLOW_MILLISECONDS / 2) this.scale = Math.min(1, this.scale * 1.1);
-    }
-    if (!this.coarse) {
-      const served = this.firstWaiting.filter(({ order }) => order <= this.painted);
-      this.firstWaiting = this.firstWaiting.filter(({ order }) => order > this.painted);
+    while (this.underWay.length > 0) {
+      const { fence, at, coarse, order } = this.underWay[0]!;
+      if (gl.clientWaitSync(fence, gl.SYNC_FLUSH_COMMANDS_BIT, 0) === gl.TIMEOUT_EXPIRED) return;
+      gl.deleteSync(fence);
+      this.underWay.shift();
+      this.measure(performance.now() - at, coarse);
+      if (coarse) continue;
+      const served = this.firstWaiting.filter((waiting) => waiting.order <= order);
+      this.firstWaiting = this.firstWaiting.filter((waiting) => waiting.order > order);
       for (const { resolve } of served) resolve();
     }
-    return true;
+  }
+
+  private measure(took: number, coarse: boolean): void {
+    if (!coarse) this.drawMilliseconds = took;
+    else if (took > SLOW_MILLISECONDS) this.scale = Math.max(LEAST_SCALE, this.scale * 0.75);
+    // A picture ends at a refresh of the screen, so little is known of quick ones.
+    if (took < SLOW_MILLISECONDS / 2) this.scale = Math.min(1, this.scale * 1.1);
+    else if (!coarse && took > SLOW_MILLISECONDS && this.scale === 1) this.scale = 0.75;
   }
 
   private paint(sample: number, scale: number): void {
     const { canvas, gl, pipeline, camera } = this.options;
     const look = this.options.look();
     this.coarse = scale < 1;
-    this.painted = this.ordered;
     if (this.coarse) {
       look.pixelRatio *= scale;
       look.shadeSamples = Math.ceil(look.shadeSamples / 2);
     }
     pipeline.resize(Math.max(1, Math.round(canvas.width * scale)), Math.max(1, Math.round(canvas.height * scale)));
-    this.drawnAt = performance.now();
-    pipeline.draw(camera, look, sample);
+    const at = performance.now();
+    pipeline.draw(camera, look, sample, this.coarse || !pipeline.canAverage);
     pipeline.show();
     this.samples = sample + 1;
-    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (fence) this.underWay.push({ fence, at, coarse: this.coarse, order: this.ordered });
     gl.flush();
     if (sample === 0) this.options.painted();
     this.schedule();

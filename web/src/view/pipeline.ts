@@ -71,7 +71,7 @@ export class Pipeline {
     this.nearest = new THREE.WebGLRenderTarget(1, 1, {
       ...sharp, format: THREE.RedIntegerFormat, type: THREE.UnsignedIntType, internalFormat: "R32UI", depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
     });
-    this.sample = new THREE.WebGLRenderTarget(1, 1, { ...sharp, depthBuffer: true });
+    this.sample = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, depthBuffer: true });
     this.sum = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, type: THREE.HalfFloatType, depthBuffer: false });
     this.shade = screenPass(SHADE_FRAGMENT, {
       nearest: { value: this.nearest.texture }, depths: { value: this.nearest.depthTexture }, balls: { value: balls.places },
@@ -122,8 +122,9 @@ export class Pipeline {
     for (const rods of [this.chains, this.walls.edges]) rods.uniforms.paper.value.copy(look.paper);
   }
 
-  /** Draws sample 0, 1, 2 ... of a picture and adds it to those before it; sample 0 begins a new picture. */
-  draw(camera: THREE.OrthographicCamera, look: Look, sample: number): void {
+  /** Draws sample 0, 1, 2 ... of a picture and adds it to those before it; sample 0 begins a new picture. `alone`: no further sample
+   * follows, and none is summed up. */
+  draw(camera: THREE.OrthographicCamera, look: Look, sample: number, alone = false): void {
     const { renderer } = this;
     this.camera.copy(camera, false);
     camera.updateMatrixWorld();
@@ -145,11 +146,13 @@ export class Pipeline {
     renderer.render(this.shade.scene, FLAT_CAMERA);
     renderer.render(this.over, this.camera);
     renderer.render(this.through, this.camera);
+    const copy = this.copy.material.uniforms;
+    copy.picture!.value = (alone ? this.sample : this.sum).texture;
+    copy.factor!.value = alone ? 1 : 1 / (sample + 1);
+    if (alone) return;
     renderer.setRenderTarget(this.sum);
     if (sample === 0) renderer.clear(true, false, false);
     renderer.render(this.add.scene, FLAT_CAMERA);
-    this.copy.material.uniforms.factor!.value = 1 / (sample + 1);
-    renderer.setRenderTarget(null);
   }
 
   /** Brings the mean of the samples onto the canvas. */

@@ -31,23 +31,27 @@ export function whyNoFilm(states: number): string {
 
 const PICTURES_PER_SECOND = 25, SECONDS_PER_STATE = 0.5;
 
-/** Records `count` pictures that `paint` brings onto the canvas, half a second each; recording waits while one is made. */
-export async function recordFilm(canvas: HTMLCanvasElement, count: number, paint: (index: number) => Promise<void>): Promise<Blob> {
-  const stream = canvas.captureStream(PICTURES_PER_SECOND);
+/** Records `count` pictures of one size, half a second each; recording waits while `make` makes one. */
+export async function recordFilm(count: number, make: (index: number) => Promise<HTMLCanvasElement>): Promise<Blob> {
+  const film = document.createElement("canvas");
+  const context = film.getContext("2d")!;
+  const first = await make(0);
+  film.width = first.width;
+  film.height = first.height;
+  context.drawImage(first, 0, 0);
+  const stream = film.captureStream(PICTURES_PER_SECOND);
   const recorder = new MediaRecorder(stream, { mimeType: filmType()!, videoBitsPerSecond: 12e6 });
   const parts: Blob[] = [];
   recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
-  const context = canvas.getContext("2d")!;
   try {
     for (let k = 0; k < count; ++k) {
-      await paint(k);
+      const picture = k === 0 ? first : await make(k);
       if (k === 0) recorder.start();
       else recorder.resume();
       const seconds = k === count - 1 ? 2 * SECONDS_PER_STATE : SECONDS_PER_STATE;
-      const until = performance.now() + 1000 * seconds;
-      // A stream carries a picture when the canvas was drawn upon: the last pixel is drawn onto itself.
-      while (performance.now() < until) {
-        context.drawImage(canvas, 0, 0, 1, 1, 0, 0, 1, 1);
+      // A stream carries a picture whenever the canvas was drawn upon.
+      for (let n = 0; n < seconds * PICTURES_PER_SECOND; ++n) {
+        context.drawImage(picture, 0, 0);
         await new Promise((resolve) => setTimeout(resolve, 1000 / PICTURES_PER_SECOND));
       }
       if (k < count - 1) recorder.pause();

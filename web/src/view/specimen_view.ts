@@ -98,11 +98,13 @@ class SpecimenView implements ViewHandle {
     this.canvas.addEventListener("pointerdown", (event) => (this.pressedAt = [event.clientX, event.clientY]));
     this.canvas.addEventListener("click", (event) => void this.nameGrain(event));
     this.canvas.addEventListener("webglcontextrestored", () => this.painter.request(false));
+    addEventListener("beforeprint", this.print);
+    addEventListener("afterprint", this.readTheme);
   }
 
   async begin(): Promise<void> {
-    this.readTheme();
     await this.scene.update(this.settings);
+    this.readTheme();
     this.say();
     this.resize();
     this.viewpoint.look("oblique", this.scene.wholeBox());
@@ -116,10 +118,11 @@ class SpecimenView implements ViewHandle {
     if (change.chains === true && this.settings.grains === "solid" && change.grains === undefined) this.settings.grains = "pale";
     if (change.chains === false && this.settings.grains === "pale") this.settings.grains = "solid";
     this.panel.show(this.settings);
+    const sliding = change.threshold !== undefined || change.cutAt !== undefined;
     // Sliders give many changes while one state is decoded: each update takes the settings as they are when it begins.
     this.updating = this.updating.then(() => this.scene.update(this.settings)).then(() => {
       this.say();
-      this.painter.request(true);
+      this.painter.request(sliding);
     });
     return this.updating.then(() => this.painter.first());
   }
@@ -158,6 +161,8 @@ class SpecimenView implements ViewHandle {
     clearTimeout(this.playing);
     this.sizes.disconnect();
     this.stopTheme();
+    removeEventListener("beforeprint", this.print);
+    removeEventListener("afterprint", this.readTheme);
     this.painter.dispose();
     this.viewpoint.dispose();
     this.scene.dispose();
@@ -188,10 +193,15 @@ class SpecimenView implements ViewHandle {
     };
   }
 
-  private readTheme(): void {
+  private readonly readTheme = (): void => {
     this.theme = themeOf(this.stage);
     this.painter.request(false);
-  }
+  };
+
+  private readonly print = (): void => {
+    this.theme = WHITE_PAPER;
+    this.painter.paintNow();
+  };
 
   private resize(): void {
     const width = Math.max(1, this.stage.clientWidth), height = Math.max(1, this.stage.clientHeight);
@@ -220,7 +230,7 @@ class SpecimenView implements ViewHandle {
 
   private async nameGrain(event: MouseEvent): Promise<void> {
     if (Math.hypot(event.clientX - this.pressedAt[0]!, event.clientY - this.pressedAt[1]!) > 4) return;
-    await this.render();
+    await this.painter.sharp();
     const scale = this.canvas.width / this.canvas.clientWidth;
     const ball = this.pipeline.ballAt(Math.floor(event.offsetX * scale), Math.floor(event.offsetY * scale));
     if (ball < 0) return this.say();
@@ -261,25 +271,23 @@ class SpecimenView implements ViewHandle {
   }
 
   /** Picture of the present settings, `scale` times as many pixels as the page shows, with legend and caption. */
-  private async compose(canvas: HTMLCanvasElement, scale: number, theme: Theme): Promise<void> {
+  private async compose(scale: number, theme: Theme): Promise<HTMLCanvasElement> {
     const width = this.stage.clientWidth, height = this.stage.clientHeight;
-    canvas.width = Math.round(width * scale);
-    canvas.height = Math.round(height * scale);
     const samples = !this.pipeline.canAverage ? 1 : this.slow ? 4 : 16;
     const image = await this.painter.hold(async () => {
-      this.pipeline.resize(canvas.width, canvas.height);
+      this.pipeline.resize(Math.round(width * scale), Math.round(height * scale));
       for (let k = 0; k < samples; ++k) {
-        this.pipeline.draw(this.viewpoint.camera, this.look_(theme, scale), k);
+        this.pipeline.draw(this.viewpoint.camera, this.look_(theme, scale), k, samples === 1);
         await new Promise((resolve) => setTimeout(resolve));
       }
       return this.pipeline.read();
     });
+    const canvas = el("canvas", { width: image.width, height: image.height });
     const context = canvas.getContext("2d")!;
-    context.setTransform(1, 0, 0, 1, 0, 0);
     context.putImageData(image, 0, 0);
     context.setTransform(scale, 0, 0, scale, 0, 0);
     drawOverlay(context, width, height, this.overlay(theme, this.viewpoint.pixelsPerMillimetre));
-    context.setTransform(1, 0, 0, 1, 0, 0);
+    return canvas;
   }
 
   private fileName(ending: string): string {
@@ -287,22 +295,19 @@ class SpecimenView implements ViewHandle {
   }
 
   private async savePicture(): Promise<void> {
-    const canvas = document.createElement("canvas");
     await this.updating;
-    await this.compose(canvas, 2, WHITE_PAPER);
-    await savePicture(canvas, this.fileName(`${this.scene.state.displacement_mm.toFixed(2)}mm.png`));
+    await savePicture(await this.compose(2, WHITE_PAPER), this.fileName(`${this.scene.state.displacement_mm.toFixed(2)}mm.png`));
   }
 
   private async saveFilm(): Promise<void> {
     const before = { state: this.settings.state, sameRange: this.settings.sameRange };
     const states = this.specimen.view.states.length;
-    const canvas = document.createElement("canvas");
     try {
-      const film = await recordFilm(canvas, states, async (index) => {
+      const film = await recordFilm(states, async (index) => {
         this.panel.setBusy(true, `Recording ${index + 1} of ${states}`);
         // In a film a colour must mean the same number from beginning to end.
         await this.set({ state: index, sameRange: true });
-        await this.compose(canvas, this.pixelRatio, this.theme);
+        return this.compose(this.pixelRatio, this.theme);
       });
       save(film, this.fileName("shear.webm"));
     } finally {
@@ -320,11 +325,14 @@ export async function createSpecimenView(container: HTMLElement, view: View, nam
     return null;
   };
   if (view.states.length === 0) return instead("No state of the specimen is stored yet.");
+  // Numbers are unpacked while the browser starts its graphics.
+  const opening = typeof DecompressionStream === "undefined" ? null : Specimen.open(view);
+  opening?.catch(() => {});
   const canvas = document.createElement("canvas");
   const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
-  if (!gl || typeof DecompressionStream === "undefined") return instead(TOO_OLD);
+  if (!gl || !opening) return instead(TOO_OLD);
   try {
-    const specimen = await Specimen.open(view);
+    const specimen = await opening;
     const made = new SpecimenView(container, specimen, name, new THREE.WebGLRenderer({ canvas, context: gl }), started);
     await made.begin();
     return made;

@@ -16,13 +16,15 @@ export class Viewpoint {
   private readonly controls: OrbitControls;
   private aspect = 1;
   private halfHeight = 1;
+  /** While the view goes to another place at once, which is no movement. */
+  private jumping = false;
 
   /** `changed` is told whether more changes follow at once. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly changed: (moving: boolean) => void) {
     this.camera.up.set(0, 0, 1);
     this.camera.position.set(0, -1, 0);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.changed(true));
+    this.controls.addEventListener("change", () => this.changed(!this.jumping));
     canvas.addEventListener("keydown", this.key);
     // A page must scroll past the view: it takes the wheel and one finger only when it was chosen first.
     this.controls.enableZoom = false;
@@ -64,7 +66,7 @@ export class Viewpoint {
     const h = THREE.MathUtils.clamp(height, -Math.PI / 2 + 1e-4, Math.PI / 2 - 1e-4);
     this.camera.position.set(size * Math.cos(h) * Math.sin(azimuth), -size * Math.cos(h) * Math.cos(azimuth), size * Math.sin(h)).add(this.controls.target);
     this.controls.update();
-    this.changed(true);
+    this.changed(!this.jumping);
   }
 
   zoom(factor: number): void {
@@ -81,8 +83,10 @@ export class Viewpoint {
     // Far enough that nothing comes before the near end when the view was pushed aside and turned.
     this.camera.near = 0;
     this.camera.far = 8 * radius;
+    this.jumping = true;
     this.place(azimuth, height, 4 * radius);
     this.fit(box);
+    this.jumping = false;
   }
 
   /** Nearest and farthest depth of a box behind the near end of the view, mm. */

@@ -3,6 +3,7 @@
 import { strongShare } from "./chains.ts";
 import type { BodyState, Geometry } from "./bodies.ts";
 import type { Range } from "./palettes.ts";
+import { withUnit } from "../numbers.ts";
 import { QUANTITIES } from "./quantities.ts";
 import type { Colour, ViewSettings } from "./settings.ts";
 
@@ -26,7 +27,7 @@ export function describe(geometry: Geometry, state: BodyState, settings: ViewSet
   if (settings.chains) text += ` ${count(chains)} force chains above ${settings.threshold.toFixed(1)} times the mean force.`;
   if (settings.colour !== "kind" && range) {
     const { name, unit } = QUANTITIES[settings.colour];
-    text += ` ${name} coloured from ${digits(range.low)} to ${digits(range.high)} ${unit}.`;
+    text += ` ${name} coloured from ${digits(range.low)} to ${withUnit(digits(range.high), unit)}.`;
   }
   if (settings.cut !== "none") text += ` Cut across ${settings.cut} at ${Math.round(100 * settings.cutAt)} % of the specimen.`;
   return text;
@@ -38,6 +39,6 @@ export function describeBody(geometry: Geometry, body: number, values: Record<Ex
   const number = rubber ? body : body - geometry.rubberGrains;
   const parts = (["displacement", "rotation", "stress", "strain"] as const)
     .filter((colour) => body < values[colour].length)
-    .map((colour) => `${QUANTITIES[colour].name.toLowerCase()} ${digits(values[colour][body]!)} ${QUANTITIES[colour].unit}`);
+    .map((colour) => `${QUANTITIES[colour].name.toLowerCase()} ${withUnit(digits(values[colour][body]!), QUANTITIES[colour].unit)}`);
   return `${rubber ? "Rubber" : "Gravel"} grain ${number} (body ${body}): ${parts.join(", ")}.`;
 }
