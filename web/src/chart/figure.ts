@@ -83,7 +83,7 @@ export function figure(parts: FigureParts): HTMLElement {
     el("p", { id: heading, class: "subtitle" }, parts.title), parts.picture, parts.legend, caption, tools(parts));
 }
 
-/** What stands where a chart has nothing to show. */
+/** What stands where a chart has nothing to show; without a title where the heading above says what it is. */
 export function emptyFigure(title: string, reason: string): HTMLElement {
-  return el("div", { class: "chart empty" }, el("p", { class: "subtitle" }, title), el("p", {}, reason));
+  return el("div", { class: "chart empty" }, title ? el("p", { class: "subtitle" }, title) : null, el("p", {}, reason));
 }

@@ -13,7 +13,7 @@ const HALF_WINDOW = 2;
 export function compressionCharts(test: Test): HTMLElement[] {
   const table = test.tables.compression;
   const [strain, displacement, load] = [column(table, "strain"), column(table, "displacement_mm"), column(table, "load_N")];
-  if (!strain || !displacement || !hasNumbers(load)) return [emptyFigure("Load", "There are no rows of grain.csv yet.")];
+  if (!strain || !displacement || !hasNumbers(load)) return [emptyFigure("", "There are no rows of grain.csv yet.")];
   const s = test.summary;
   const group = new ChartGroup();
   const knee = numberAt(s, "knee_strain");

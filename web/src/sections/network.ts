@@ -153,7 +153,7 @@ function coordination(test: Test, group: ChartGroup): HTMLElement | null {
 
 export function networkCharts(test: Test, group: ChartGroup): (HTMLElement | null)[] {
   if (!hasNumbers(column(test.tables.micro, "a_all"))) {
-    return [emptyFigure("Contact network", "There are no rows of micro.csv yet.")];
+    return [emptyFigure("", "There are no rows of micro.csv yet.")];
   }
   return [anisotropy(test, group), directions(test, group), bulkFriction(test, group), strongNetwork(test, group), sliding(test, group), coordination(test, group)];
 }

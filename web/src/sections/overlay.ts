@@ -20,7 +20,11 @@ export function overlay(tests: Test[], laboratory: LaboratoryCurve[]): HTMLEleme
   const parts: HTMLElement[] = [];
   if (sheared.length > 1) {
     const group = new ChartGroup("overlay");
-    const key = legend(sheared.map((test, place) => ({ name: test.name, key: test.name, draw: "line" as const, ...LOOKS(place) })), group, "all charts of this part");
+    const measuredCurves = [...laboratorySeries(laboratory, null, "shear_stress_kPa"), ...laboratorySeries(laboratory, null, "vertical_displacement_mm")];
+    const key = legend([
+      ...sheared.map((test, place) => ({ name: test.name, key: test.name, draw: "line" as const, ...LOOKS(place) })),
+      ...measuredCurves.filter((one, place) => measuredCurves.findIndex(({ name }) => name === one.name) === place).map((one) => ({ ...one, key: one.name })),
+    ], group, "all charts of this part");
     const chart = (title: string, label: string, unit: string, y: string, lab?: "shear_stress_kPa" | "vertical_displacement_mm") => xyChart({
       title, x: DISPLACEMENT, y: { label, unit }, group, legend: false, cursor: "nearest",
       series: [

@@ -56,7 +56,7 @@ function shearBand(test: Test, displacement: number): (HTMLElement | string)[] {
 
 export function profileCharts(test: Test): HTMLElement[] {
   const displacements = column(test.tables.profiles, "shear_displacement_mm");
-  if (!hasNumbers(displacements)) return [emptyFigure("Profiles over the height", "profiles.csv is written at the end of the test.")];
+  if (!hasNumbers(displacements)) return [emptyFigure("", "profiles.csv is written at the end of the test.")];
   const states = [...new Set(displacements.filter((value): value is number => value !== null))];
   const rowsAt = (state: number) => displacements.flatMap((value, row) => (value === state ? [row] : []));
   const box = charts();

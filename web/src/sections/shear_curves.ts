@@ -130,7 +130,7 @@ function decomposition(test: Test, group: ChartGroup): HTMLElement {
 
 export function shearCharts(test: Test, laboratory: LaboratoryCurve[], group: ChartGroup): HTMLElement[] {
   if (!hasNumbers(column(test.tables.shear, "shear_stress_kPa"))) {
-    return [emptyFigure("Shear stress", "There are no rows of shear.csv: the test has not begun to shear.")];
+    return [emptyFigure("", "There are no rows of shear.csv: the test has not begun to shear.")];
   }
   return [shearStress(test, laboratory, group), verticalDisplacement(test, laboratory, group), normalStress(test, group), voidRatio(test, group), stressDilatancy(test), decomposition(test, group)];
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // All that the page has to say of one test, in the order in which it is read.
 import type { PageData, Test } from "../data.ts";
+import { el } from "../dom.ts";
 import { ChartGroup } from "../chart/group.ts";
+import { rowsOf } from "../tables.ts";
 import { compressionCharts } from "./compression.ts";
 import { networkCharts, rubberCharts } from "./network.ts";
 import { overview } from "./overview.ts";
@@ -21,7 +23,7 @@ function directShear(test: Test, data: PageData, id: (name: string) => string): 
   return [
     { id: id("curves"), title: "Stress and volume change", short: "Stress", body: [charts(...shearCharts(test, data.laboratory, shear))] },
     { id: id("network"), title: "Contact network", short: "Network", body: [charts(...networkCharts(test, shear), polarFigure(test))] },
-    { id: id("rubber"), title: "Rubber strain", short: "Rubber", body: rubber ? [charts(...rubber)] : ["The specimen holds no rubber."] },
+    { id: id("rubber"), title: "Rubber strain", short: "Rubber", body: rubber ? [charts(...rubber)] : [el("p", {}, rowsOf(test.tables.micro) > 0 ? "The specimen holds no rubber." : "There are no rows of micro.csv yet.")] },
     { id: id("profiles"), title: "Profiles over the height", short: "Profiles", body: profileCharts(test) },
     { id: id("specimen"), title: "Grading and walls", short: "Grading", body: [charts(sieveChart(test), ...wallCharts(test, shear))] },
     { id: id("quality"), title: "Quality", body: [...qualityPanel(test), charts(energyChart(test, shear), equilibriumChart(test, shear))] },

@@ -81,7 +81,8 @@ export async function numbers(page) {
       if (value !== expected) problems.push(`${source}: the page has ${element.dataset.value}, the data have ${expected}`);
       else if (Math.abs(shown - value) > 6e-3 * Math.abs(value)) problems.push(`${source}: ${value} is shown as ${element.textContent}`);
     }
-    if (all.length === 0) problems.push("no number names its source");
+    const hasNumbers = data.tests.some((test) => Object.keys(test.summary).length > 0 || test.tables.shear);
+    if (all.length === 0 && hasNumbers) problems.push("no number names its source");
     return { problems: problems.slice(0, 20), fact: `${all.length} numbers` };
   });
 }
@@ -119,13 +120,16 @@ export async function cutPlane(page) {
   await box.scrollIntoViewIfNeeded();
   const canvas = box.locator("canvas").first();
   await canvas.waitFor({ state: "visible", timeout: 10000 });
-  const picture = async () => (await canvas.screenshot()).toString("base64");
-  /** Software rendering takes its time: waits until the picture is another one. */
+  // The canvas keeps its picture; a screenshot would wait for two quiet frames, which software rendering may not give.
+  const picture = () => canvas.evaluate((element) => element.toDataURL());
+  /** The next picture that differs and stays; null when none comes. */
   const changes = async (before) => {
-    for (let wait = 0; wait < 20; wait += 1) {
+    let last = before;
+    for (let wait = 0; wait < 40; wait += 1) {
       const now = await picture();
-      if (now !== before) return now;
-      await page.waitForTimeout(150);
+      if (now !== before && now === last) return now;
+      last = now;
+      await page.waitForTimeout(100);
     }
     return null;
   };
