@@ -42,7 +42,7 @@ export class Painter {
   private underWay: Ordered[] = [];
   private scheduled = 0;
   private waiting: (() => void)[] = [];
-  private firstWaiting: { order: number; resolve: () => void }[] = [];
+  private firstWaiting: { order: number; coarse: boolean; resolve: () => void }[] = [];
   private ordered = 0;
   private held = 0;
   private over = false;
@@ -65,10 +65,10 @@ export class Painter {
     this.schedule();
   }
 
-  /** Resolves when a picture of all that was set before is on the canvas. */
-  first(): Promise<void> {
-    this.request(false);
-    return new Promise((resolve) => this.firstWaiting.push({ order: this.ordered, resolve }));
+  /** Resolves when a picture of all that was set before is on the canvas; a coarse one is enough if `coarse` is set. */
+  first(coarse = false): Promise<void> {
+    this.request(coarse);
+    return new Promise((resolve) => this.firstWaiting.push({ order: this.ordered, coarse, resolve }));
   }
 
   /** Resolves when the picture with all pixels shows what was set, at once if it does already. */
@@ -139,9 +139,9 @@ export class Painter {
       gl.deleteSync(fence);
       this.underWay.shift();
       this.measure(performance.now() - at, coarse);
-      if (coarse) continue;
-      const served = this.firstWaiting.filter((waiting) => waiting.order <= order);
-      this.firstWaiting = this.firstWaiting.filter((waiting) => waiting.order > order);
+      const serves = (waiting: { order: number; coarse: boolean }) => waiting.order <= order && (waiting.coarse || !coarse);
+      const served = this.firstWaiting.filter(serves);
+      this.firstWaiting = this.firstWaiting.filter((waiting) => !serves(waiting));
       for (const { resolve } of served) resolve();
     }
   }

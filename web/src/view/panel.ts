@@ -130,7 +130,7 @@ export class Panel {
   }
 
   private chainGroup(): HTMLElement {
-    const slider = this.slider("Above", 0, 5, 0.1, (value) => `${value.toFixed(1)} × mean force`, (threshold) => this.actions.changed({ threshold }));
+    const slider = this.slider("Above", 0, 5, 0.1, (value) => `${value.toFixed(1)} × mean`, (threshold) => this.actions.changed({ threshold }));
     this.update.push((settings) => slider.set(settings.threshold));
     return this.group(
       "Force chains",

@@ -63,6 +63,7 @@ class SpecimenView implements ViewHandle {
   private theme: Theme = WHITE_PAPER;
   private updating: Promise<void> = Promise.resolve();
   private playing = 0;
+  private printing = false;
   private firstPaint = 0;
   private pressedAt = [0, 0];
 
@@ -99,7 +100,7 @@ class SpecimenView implements ViewHandle {
     this.canvas.addEventListener("click", (event) => void this.nameGrain(event));
     this.canvas.addEventListener("webglcontextrestored", () => this.painter.request(false));
     addEventListener("beforeprint", this.print);
-    addEventListener("afterprint", this.readTheme);
+    addEventListener("afterprint", this.printed);
   }
 
   async begin(): Promise<void> {
@@ -108,7 +109,7 @@ class SpecimenView implements ViewHandle {
     this.say();
     this.resize();
     this.viewpoint.look("oblique", this.scene.wholeBox());
-    await this.painter.first();
+    await this.painter.first(true);
     this.firstPaint = performance.now() - this.started;
   }
 
@@ -162,7 +163,7 @@ class SpecimenView implements ViewHandle {
     this.sizes.disconnect();
     this.stopTheme();
     removeEventListener("beforeprint", this.print);
-    removeEventListener("afterprint", this.readTheme);
+    removeEventListener("afterprint", this.printed);
     this.painter.dispose();
     this.viewpoint.dispose();
     this.scene.dispose();
@@ -199,11 +200,20 @@ class SpecimenView implements ViewHandle {
   };
 
   private readonly print = (): void => {
+    this.printing = true;
     this.theme = WHITE_PAPER;
     this.painter.paintNow();
+    this.drawScreenOverlay();
+  };
+
+  private readonly printed = (): void => {
+    this.printing = false;
+    this.readTheme();
+    this.resize();
   };
 
   private resize(): void {
+    if (this.printing) return;
     const width = Math.max(1, this.stage.clientWidth), height = Math.max(1, this.stage.clientHeight);
     this.renderer.setPixelRatio(this.pixelRatio);
     this.renderer.setSize(width, height, false);
@@ -219,6 +229,8 @@ class SpecimenView implements ViewHandle {
     const width = this.stage.clientWidth, height = this.stage.clientHeight;
     context.setTransform(this.overlayCanvas.width / width, 0, 0, this.overlayCanvas.height / height, 0, 0);
     context.clearRect(0, 0, width, height);
+    // Printers do not see what the graphics processor drew last.
+    if (this.printing) context.drawImage(this.canvas, 0, 0, width, height);
     drawOverlay(context, width, height, this.overlay(this.theme, this.viewpoint.pixelsPerMillimetre));
   }
 
@@ -333,7 +345,10 @@ export async function createSpecimenView(container: HTMLElement, view: View, nam
   if (!gl || !opening) return instead(TOO_OLD);
   try {
     const specimen = await opening;
-    const made = new SpecimenView(container, specimen, name, new THREE.WebGLRenderer({ canvas, context: gl }), started);
+    const renderer = new THREE.WebGLRenderer({ canvas, context: gl });
+    // Asking for errors of the programs, which the tests would show, makes the first picture wait for each of them in turn.
+    renderer.debug.checkShaderErrors = false;
+    const made = new SpecimenView(container, specimen, name, renderer, started);
     await made.begin();
     return made;
   } catch (error) {
