@@ -101,7 +101,9 @@ JsonObject histogram_as_json(const PolarHistogram& histogram, const AnisotropyBa
                                {"a_n", band_or_null(bands.normal_amplitude, 1.0)},
                                {"theta_n_deg", band_or_null(bands.normal_direction, k_degrees)},
                                {"a_t", band_or_null(bands.shear_amplitude, 1.0)},
-                               {"theta_t_deg", band_or_null(bands.shear_direction, k_degrees)}}}};
+                               {"theta_t_deg", band_or_null(bands.shear_direction, k_degrees)},
+                               {"a_s", band_or_null(bands.signed_shear_amplitude, 1.0)},
+                               {"theta_s_deg", band_or_null(bands.signed_shear_direction, k_degrees)}}}};
 }
 
 JsonList histograms_of(const std::filesystem::path& results, int resamples) {
