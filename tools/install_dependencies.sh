@@ -18,6 +18,7 @@ build_packages=(
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
 # see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,
 # see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
+# Sphinx, MyST and a theme build the documentation site, see docs/decisions/0029-documentation-site.md.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
@@ -25,6 +26,7 @@ test_packages=(
   python3 python3-numpy python3-h5py python3-matplotlib
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
+  python3-sphinx python3-myst-parser furo
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.
