@@ -26,7 +26,7 @@ test_packages=(
   python3 python3-numpy python3-h5py python3-matplotlib
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
-  python3-sphinx python3-myst-parser furo
+  python3-sphinx python3-myst-parser furo fonts-texgyre-math
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.
