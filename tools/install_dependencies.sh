@@ -23,6 +23,7 @@ fi
 # see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,
 # see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
 # chromium opens the report page, see web/test.
+# Sphinx, MyST and a theme build the documentation site, see docs/decisions/0029-documentation-site.md.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
@@ -31,6 +32,7 @@ test_packages=(
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
   chromium
+  python3-sphinx python3-myst-parser furo fonts-texgyre-math
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.

@@ -20,6 +20,8 @@ import unittest
 import slurm_cluster
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/docs"))
+import snippets  # noqa: E402
 PROGRAM = ""
 
 BASE = (ROOT / "cases/studies/small-box.toml").read_text(encoding="utf-8").replace("../gradings", str(ROOT / "cases/gradings"))
@@ -32,14 +34,13 @@ def text(path):
 
 def commands_of(page):
     """The commands that a page tells its reader to type, in order."""
-    blocks = re.findall(r"^```sh\n(.*?)^```", (ROOT / "docs/how-to" / page).read_text(encoding="utf-8"), re.M | re.S)
-    return [line for block in blocks for line in block.splitlines() if line.strip()]
+    return snippets.commands_of((ROOT / "docs/how-to" / page).read_text(encoding="utf-8"))
 
 
 def type_commands(page, folder, environment):
     """Runs the commands of a page as its reader would; returns command and output of each."""
     (folder / "bin").mkdir(exist_ok=True)
-    for link, target in (("bin/dem4grm", PROGRAM), ("cases", ROOT / "cases")):
+    for link, target in (("bin/dem4grm", PROGRAM), ("cases", ROOT / "cases"), ("tools", ROOT / "tools")):
         if not (folder / link).is_symlink():
             (folder / link).symlink_to(target)
     path = f"{folder / 'bin'}:{environment['PATH']}"
@@ -61,7 +62,7 @@ class Workstation(unittest.TestCase):
 
     def check(self, outputs):
         self.assertIn("6 of 6 done", "".join(out for command, out in outputs if "campaign status" in command))
-        self.assertIn("6 of 6 tests collected", outputs[-1][1])
+        self.assertIn("6 of 6 tests collected", dict(outputs)["dem4grm campaign collect runs/quick-study"])
 
 
 class Campaigns(unittest.TestCase):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What another program says.
+// Runs another program and keeps what it prints.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One value of a case file into its slot, with every check that needs no other key.
+// Reads one value of a case file into its place, with every check that needs no other key.
 #pragma once
 
 #include <filesystem>

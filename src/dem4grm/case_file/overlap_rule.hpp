@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Overlaps that follow from stress and modulus, and can be told before a run.
+// Overlaps that follow from stress and modulus, and so can be foretold before a run.
 #pragma once
 
 #include "dem4grm/case_file/box_rules.hpp"

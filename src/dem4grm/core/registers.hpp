@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moves of doubles in registers that a lane loop cannot say well: numbers collected from many places, and transposes.
+// Moves of doubles into and between registers: numbers collected from many places, and transposes. g++ makes poor code of a
+// plain loop that does the same.
 //
 // Both are written for the width of the registers that the file at hand is compiled for. A vector wider than the
 // registers would be put together in memory by g++, by stores of eight bytes and a load of the whole that has to wait

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the search has found with wide margins; from it the lists of candidates are picked.
+// All pairs of balls that the search has found with wide margins. The lists of candidates, which are needed far more often, are
+// picked from them without a new search.
 #pragma once
 
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The state of a simulation and the stages of one time step.
 //
-// Order of a step (step.cpp): candidates - ball contacts - wall contacts - rubber grains, with the contacts that wait for
-// them (rubber_batches.hpp) - clumps - walls. Positions
-// belong to full steps, velocities to half steps (leapfrog); contact laws see the positions of the full step and the
-// velocities that led there. Every stage runs over blocks of fixed size, every sum has a fixed order: the bits do not
-// depend on the number of threads, on the pack width or on when the list of candidates was built; only the last bits of
-// slip and dashpot works do depend on the list.
+// Order of a step (step.cpp): list of candidates, ball contacts, wall contacts, rubber grains (with the contacts that
+// wait for them, rubber_batches.hpp), clumps, walls. Positions belong to full steps, velocities to half steps
+// (leapfrog); contact laws see the positions of the full step and the velocities that led there. Every stage runs over
+// blocks of fixed size and every sum has a fixed order. So the bits do not depend on the number of threads, on the
+// width of the lane loops, or on when the list of candidates was built. One exception: the last bits of the work of
+// slip and dashpots, which no motion depends on, follow the list.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The stress path of a branch, and what it is called in files, in the progress and in notes.
+// The stress path of a branch (one trial preparation with one friction), and what it is called in files, in the progress and
+// in notes.
 #pragma once
 
 #include <string>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reading a grading curve: sizes at a share of mass, shares at a size, and the usual key figures.
 //
-// Between the rows of the table the curve is linear in size (not in its logarithm): no logarithm reaches the state, and
-// between rows whose sizes are a factor of 1.2 apart the two rules differ by less than half a per cent of the size.
+// Between the rows of the table the curve is linear in size (not in its logarithm). So the sizes of grains depend on no
+// logarithm, whose last bits differ from one mathematical library to the next. Between rows whose sizes are a factor of
+// 1.2 apart the two rules differ by less than half a per cent of the size.
 #pragma once
 
 #include <string>
