@@ -13,7 +13,7 @@ set -euo pipefail
 build_packages=(
   g++ cmake ninja-build make pkg-config git ca-certificates
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  libhdf5-dev libxxhash-dev libeigen3-dev libboost-dev
+  libhdf5-dev zlib1g-dev libxxhash-dev libeigen3-dev libboost-dev
 )
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
 # see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,

@@ -83,6 +83,7 @@ int run_program(int argc, char** argv) {
   dem::add_sieve(app);
   dem::add_profile(app);
   dem::add_micro(app);
+  dem::add_export(app);
   dem::add_verify(app);
   dem::add_campaign(app);
   try {
