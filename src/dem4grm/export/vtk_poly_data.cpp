@@ -17,7 +17,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the files say that they are little-endian");
 
-constexpr std::size_t k_block = std::size_t{1} << 17;  // bytes before compression; a multiple of every size of number
+constexpr std::size_t k_block = std::size_t{1} << 14;  // bytes before compression; a multiple of every size of number
 constexpr int k_level = 5;                             // of 9, as VTK itself takes; more costs time for few bytes
 constexpr double k_millimetres = 1e3;
 
