@@ -5,6 +5,7 @@
 #   tools/install_dependencies.sh build        to build and to run
 #   tools/install_dependencies.sh test         the same, and all that test.sh uses
 #   tools/install_dependencies.sh peers        the programs of others that DEM4GRM is compared with
+#   tools/install_dependencies.sh octave       GNU Octave with what it draws by, for the test of examples/matlab
 #   tools/install_dependencies.sh --list test  names the packages and stops
 #
 # Exit codes: 0 everything is installed, 64 wrong usage, 69 packages are missing and cannot be installed.
@@ -24,11 +25,12 @@ fi
 # see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
 # chromium opens the report page, see web/test.
 # Sphinx, MyST and a theme build the documentation site, see docs/decisions/0029-documentation-site.md.
+# VTK reads what `dem4grm export` writes, see docs/decisions/0027-vtk-export.md.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
   clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
-  python3 python3-numpy python3-h5py python3-matplotlib
+  python3 python3-numpy python3-h5py python3-matplotlib python3-vtk9
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
   chromium
@@ -38,12 +40,18 @@ test_packages=(
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.
 peer_packages=(lammps liggghts yade mpi-default-bin python3 python3-numpy python3-matplotlib)
 
+# 310 MB, so only when asked for. Without a display Octave draws by gnuplot, prints through Ghostscript and needs these letters.
+octave_packages=(octave gnuplot-nox ghostscript fonts-freefont-otf hdf5-tools python3 python3-matplotlib)
+
 usage() {
-  echo "usage: tools/install_dependencies.sh [--list] build|test|peers" >&2
+  echo "usage: tools/install_dependencies.sh [--list] build|test|peers|octave" >&2
   exit 64
 }
 
 is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null | sort -u)" == installed ]]; }
+
+# Debian's ParaView has VTK's Python modules of its own, and each of the two packages would remove the other.
+is_served() { is_installed "$1" || { [[ "$1" == python3-vtk9 ]] && is_installed python3-paraview; }; }
 
 has_candidate() {
   local candidate
@@ -61,6 +69,7 @@ case "$1" in
   build) packages=("${build_packages[@]}") ;;
   test) packages=("${test_packages[@]}") ;;
   peers) packages=("${peer_packages[@]}") ;;
+  octave) packages=("${octave_packages[@]}") ;;
   *) usage ;;
 esac
 if [[ $list_only == yes ]]; then
@@ -76,7 +85,7 @@ fi
 
 missing=()
 for package in "${packages[@]}"; do
-  is_installed "$package" || missing+=("$package")
+  is_served "$package" || missing+=("$package")
 done
 if [[ ${#missing[@]} -eq 0 ]]; then
   echo "install_dependencies: all ${#packages[@]} packages of group '$1' are installed"

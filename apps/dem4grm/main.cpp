@@ -85,6 +85,7 @@ int run_program(int argc, char** argv) {
   dem::add_micro(app);
   dem::add_report(app);
   dem::add_watch(app);
+  dem::add_export(app);
   dem::add_verify(app);
   dem::add_campaign(app);
   try {
