@@ -8,6 +8,11 @@ function groupThousands(digits: string): string {
   return digits.replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
+export function powerOfTen(exponent: number): string {
+  const raised = [...String(Math.abs(exponent))].map((digit) => SUPERSCRIPT[Number(digit)]).join("");
+  return `10${exponent < 0 ? "⁻" : ""}${raised}`;
+}
+
 /** Rounds to `digits` significant digits. Whole numbers keep all of theirs. */
 export function formatNumber(value: number | null | undefined, digits = 4): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return NO_NUMBER;
@@ -17,8 +22,7 @@ export function formatNumber(value: number | null | undefined, digits = 4): stri
   if (Number.isInteger(value) && size < 1e12) return sign + (size >= 10000 ? groupThousands(String(size)) : String(size));
   if (size < 1e-3 || size >= 1e6) {
     const [mantissa = "", exponent = "0"] = size.toExponential(Math.min(digits, 3) - 1).split("e");
-    const raised = [...String(Math.abs(Number(exponent)))].map((digit) => SUPERSCRIPT[Number(digit)]).join("");
-    return `${sign}${mantissa} × 10${Number(exponent) < 0 ? "⁻" : ""}${raised}`;
+    return `${sign}${mantissa} × ${powerOfTen(Number(exponent))}`;
   }
   const rounded = size >= 10 ** digits ? String(Math.round(size)) : String(Number(size.toPrecision(digits)));
   const [whole = "", fraction] = rounded.split(".");

@@ -56,10 +56,10 @@ function header(data: PageData): HTMLElement {
     data.notes.length > 0 ? el("ul", { class: "notes" }, ...data.notes.map((note) => el("li", {}, note))) : null);
 }
 
-function navigation(parts: Part[], data: PageData): HTMLElement {
+function navigation(parts: Part[], data: PageData, theme: HTMLElement): HTMLElement {
   const links = parts.map(({ id, title, short }) => el("li", {}, el("a", { href: `#${id}` }, short ?? title)));
   const nav = el("nav", { class: "page-nav", "aria-label": "Parts of the page" },
-    el("div", { class: "nav-inner" }, el("ul", {}, ...links), data.live_seconds === null ? null : liveBar(data.live_seconds), themeSwitch()));
+    el("div", { class: "nav-inner" }, el("ul", {}, ...links), data.live_seconds === null ? null : liveBar(data.live_seconds), theme));
   const byId = new Map(parts.map(({ id }, place) => [id, links[place]?.firstElementChild]));
   const observer = new IntersectionObserver((entries) => {
     for (const entry of entries) {
@@ -93,7 +93,20 @@ function foldedTest(test: Test, data: PageData, id: string): HTMLElement {
   return box;
 }
 
-export function buildPage(data: PageData, main: HTMLElement): void {
+/** Headline and verdict are there at once; the charts follow when they have been painted. */
+export async function buildPage(data: PageData, main: HTMLElement): Promise<void> {
+  const theme = themeSwitch();
+  main.tabIndex = -1;
+  main.replaceChildren(header(data));
+  await new Promise<void>((painted) => {
+    requestAnimationFrame(() => setTimeout(painted, 0));
+    // A tab behind others gets no frames.
+    setTimeout(painted, 200);
+  });
+  buildParts(data, main, theme);
+}
+
+function buildParts(data: PageData, main: HTMLElement, theme: HTMLElement): void {
   const ids = new Map(data.tests.map((test, place) => [test, `test-${slug(test.name)}${data.tests.findIndex((one) => slug(one.name) === slug(test.name)) < place ? `-${place}` : ""}`]));
   const addressOf = (test: Test) => `#${ids.get(test) ?? ""}`;
   const only = data.tests.length === 1 && !data.campaign ? data.tests[0] : undefined;
@@ -116,9 +129,8 @@ export function buildPage(data: PageData, main: HTMLElement): void {
   }
   const article = el("div", { class: "parts" }, ...parts.map((part) => section(part, 2)));
   if (only) article.dataset.test = only.name;
-  main.before(el("a", { class: "skip", href: "#page" }, "Skip to the content"), navigation(parts, data));
-  main.tabIndex = -1;
-  main.replaceChildren(header(data), article);
+  main.before(el("a", { class: "skip", href: "#page" }, "Skip to the content"), navigation(parts, data, theme));
+  main.append(article);
   openTarget();
   addEventListener("hashchange", openTarget);
 }

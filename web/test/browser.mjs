@@ -12,7 +12,7 @@ import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
-import { accessibility, charts, cutPlane, keyboard, numbers, printing, sliders, unfold } from "./browser/checks.mjs";
+import { accessibility, charts, cutPlane, files, keyboard, numbers, printing, sliders, unfold } from "./browser/checks.mjs";
 import { soundness, writeVariants } from "./browser/variants.mjs";
 
 const FLAGS = [
@@ -78,6 +78,7 @@ async function checkAll(check, page) {
   await check("print", printing);
   await check("unfolding all", () => unfold(page, true));
   await check("charts", charts);
+  await check("files", files);
   await check("numbers", numbers);
   await check("soundness", soundness);
 }
@@ -93,9 +94,10 @@ async function checkPage(browser, file, shots, isVariant) {
     const begun = performance.now();
     const { problems, fact } = await work(page).catch((error) => ({ problems: [String(error).split("\n")[0]], fact: "" }));
     facts.push(`${name}: ${problems.length === 0 ? "ok" : "FAILED"}${fact ? `, ${fact}` : ""} (${Math.round(performance.now() - begun)} ms)`);
-    failures.push(...problems.map((problem) => `${name}: ${problem}`));
+    failures.push(...problems.slice(0, 8).map((problem) => `${name}: ${problem}`));
   };
   await page.goto(address, { waitUntil: "load" });
+  await page.waitForSelector("html[data-ready]");
   const paint = await page.evaluate(() => new Promise((done) => {
     const found = () => performance.getEntriesByName("first-contentful-paint")[0]?.startTime;
     requestAnimationFrame(() => setTimeout(() => done(found() ?? performance.now()), 0));

@@ -69,7 +69,7 @@ export function envelopes(campaign: Campaign): HTMLElement[] {
     return [xyChart({
       title: quantity === "peak" ? "Envelopes of the peak" : "Envelopes of the residual stress", x: { label: "Normal stress", unit: "kPa", low: 0, high: far, exact: true },
       y: { label: "Shear stress", unit: "kPa", low: 0 }, series, group: new ChartGroup(`envelopes-${quantity}`), cursor: "nearest",
-      caption: [`${words.join("; ")}. Shaded: 95 % bounds of the friction angle, about the middle of the points.`], height: 340,
+      caption: [`${words.join("; ")}.`, series.some((one) => one.low) ? " Shaded: 95 % bounds of the friction angle, about the middle of the points." : " Bounds need three tests."], height: 340,
     })];
   });
   return [charts(...figures), envelopeTable(campaign)];

@@ -26,7 +26,7 @@ export interface FigureParts {
   wide?: boolean;
 }
 
-const ROWS_AT_ONCE = 200;
+const ROWS_AT_ONCE = 100;
 
 function cellElement(cell: Cell): HTMLElement {
   if (typeof cell.value !== "number") return el("td", {}, cell.value ?? "–");

@@ -2,7 +2,7 @@
 // Scales, grid, axes and their labels of a chart with two axes.
 import { scaleLinear, scaleLog, type ScaleContinuousNumeric } from "d3-scale";
 import { svg } from "../dom.ts";
-import { formatNumber } from "../numbers.ts";
+import { formatNumber, powerOfTen } from "../numbers.ts";
 
 export interface Axis {
   label: string;
@@ -59,7 +59,10 @@ function ticksOf(axis: Axis, scale: Scale, count: number): number[] {
 /** Ticks of one linear axis have the same decimals; those of a log axis are powers where they are small. */
 function tickText(axis: Axis, scale: Scale, count: number): (tick: number) => string {
   if (axis.tickText) return axis.tickText;
-  if (axis.log) return (tick) => formatNumber(Number(tick.toPrecision(6)), 1);
+  if (axis.log) {
+    const exponent = (tick: number) => Math.round(Math.log10(tick));
+    return (tick) => (tick < 0.005 && tick === Number(`1e${exponent(tick)}`) ? powerOfTen(exponent(tick)) : formatNumber(Number(tick.toPrecision(6)), 1));
+  }
   if (axis.ticks) return (tick) => formatNumber(tick);
   const text = scale.tickFormat(count);
   return (tick) => text(tick).replace(/,/g, "\u202f");

@@ -12,7 +12,7 @@ export function inputs(test: Test): HTMLElement[] {
     el("details", { class: "inputs" },
       el("summary", {}, section === "" ? "Case" : `[${section}]`, el("span", { class: "count" }, ` ${rows.length} keys`)),
       el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": `Inputs of ${section || "the case"}` },
-        el("table", { class: "wide-table" },
+        el("table", { class: "wide-table stacked" },
           el("thead", {}, el("tr", {}, ...["Key", "Value", "Meaning"].map((name) => el("th", { scope: "col" }, name)))),
           el("tbody", {}, ...rows.map((row) => el("tr", {}, el("th", { scope: "row" }, el("code", {}, row.key)), el("td", { class: "text" }, row.value), el("td", { class: "prose" }, row.comment))))))));
 }

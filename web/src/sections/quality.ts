@@ -19,7 +19,7 @@ export function qualityPanel(test: Test): HTMLElement[] {
       el("td", { class: "prose" }, line.limit), el("td", {}, toneBadge(line.verdict)))]);
   const head = el("tr", {}, ...["Check", "Value", "What is good, and why", "Verdict"].map((name) => el("th", { scope: "col" }, name)));
   const table = el("div", { class: "table-box", tabindex: 0, role: "group", "aria-label": `Checks of ${test.name}` },
-    el("table", { class: "wide-table" }, el("thead", {}, head), el("tbody", {}, ...rows)));
+    el("table", { class: "wide-table stacked" }, el("thead", {}, head), el("tbody", {}, ...rows)));
   const words = warnings.length === 0
     ? el("p", {}, "The program gave no warnings.")
     : el("div", {}, el("p", { class: "subtitle" }, warnings.length === 1 ? "One warning of the program" : `${warnings.length} warnings of the program`),

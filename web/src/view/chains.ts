@@ -51,7 +51,8 @@ export function chainRods(
   }
   const n = chosen.length, branch = meanBranch(state);
   const rods: ChainRods = {
-    count: n, start: new Float32Array(3 * n), end: new Float32Array(3 * n), radius: new Float32Array(n), colour: new Uint8Array(3 * n),
+    count: n, start: new Float32Array(3 * n), end: new Float32Array(3 * n),
+    radius: new Float32Array(n), colour: new Uint8Array(3 * n),
     range: robustRange(Float32Array.from(chosen, (c) => contacts.force_N[c]!)),
   };
   chosen.forEach((c, k) => {
@@ -60,9 +61,8 @@ export function chainRods(
     rods.end.set(centre.subarray(3 * j, 3 * j + 3), 3 * k);
     rods.radius[k] = branch * Math.min(0.3, 0.05 * Math.sqrt(force / contacts.mean_N));
     const { low, high } = rods.range;
-    rods.colour.set(
-      colouring === "contact" ? CONTACT_COLOURS[contactKind(geometry.rubberGrains, i, j)]! : scaleColour("plasma", (force - low) / (high - low)), 3 * k,
-    );
+    const byKind = CONTACT_COLOURS[contactKind(geometry.rubberGrains, i, j)]!;
+    rods.colour.set(colouring === "contact" ? byKind : scaleColour("plasma", (force - low) / (high - low)), 3 * k);
   });
   return rods;
 }

@@ -49,7 +49,8 @@ function colourBar(context: CanvasRenderingContext2D, bar: ColourBar, right: num
   context.lineWidth = 0.75;
   context.strokeRect(left, top, width, height);
   const { low, high, below, above } = bar.range;
-  const lowest = (below ? "≤ " : "") + formatNumber(low, 3), middle = formatNumber((low + high) / 2, 3), highest = (above ? "≥ " : "") + formatNumber(high, 3);
+  const lowest = (below ? "≤ " : "") + formatNumber(low, 3), highest = (above ? "≥ " : "") + formatNumber(high, 3);
+  const middle = formatNumber((low + high) / 2, 3);
   context.textAlign = "left";
   text(context, lowest, left, bottom - 3, overlay);
   const room = width - context.measureText(middle).width - 2 * Math.max(context.measureText(lowest).width, context.measureText(highest).width);

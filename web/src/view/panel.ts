@@ -40,7 +40,10 @@ export class Panel {
     this.pictureButton.title = "Twice the size of the screen, on white paper, with legend and scale";
     this.filmButton = button("Save film (WebM)", actions.film);
     this.filmButton.disabled = facts.noFilm !== "";
-    this.element = el("div", { class: "view-panel" }, this.stateGroup(), this.lookGroup(), this.grainGroup(), this.chainGroup(), this.cutGroup(), this.saveGroup());
+    this.element = el(
+      "div", { class: "view-panel" },
+      this.stateGroup(), this.lookGroup(), this.grainGroup(), this.chainGroup(), this.cutGroup(), this.saveGroup(),
+    );
     this.show(settings);
   }
 
@@ -104,7 +107,8 @@ export class Panel {
   private stateGroup(): HTMLElement {
     const places = this.facts.displacements_mm;
     if (places.length < 2) return this.group("State", el("p", {}, `One stored state, at ${(places[0] ?? 0).toFixed(2)} mm.`));
-    const slider = this.slider("Displacement", 0, places.length - 1, 1, (k) => `${(places[k] ?? 0).toFixed(2)} mm`, (state) => this.actions.changed({ state }));
+    const words = (k: number) => `${(places[k] ?? 0).toFixed(2)} mm`;
+    const slider = this.slider("Displacement", 0, places.length - 1, 1, words, (state) => this.actions.changed({ state }));
     this.update.push((settings) => slider.set(settings.state));
     return this.group("State", slider.row, el("div", { class: "view-row" }, this.playButton));
   }
@@ -122,7 +126,10 @@ export class Panel {
       "Grains",
       this.choice("Colour", "colour", colours),
       this.choice("Draw", "grains", [["solid", "Solid"], ["pale", "Pale, behind the chains"], ["hidden", "Not at all"]]),
-      el("div", { class: "view-row" }, hasGravel ? this.box("Gravel", "gravel") : null, hasRubber ? this.box("Rubber", "rubber") : null, this.box("Walls", "walls")),
+      el(
+        "div", { class: "view-row" },
+        hasGravel ? this.box("Gravel", "gravel") : null, hasRubber ? this.box("Rubber", "rubber") : null, this.box("Walls", "walls"),
+      ),
       this.facts.displacements_mm.length > 1
         ? el("div", { class: "view-row" }, this.box("One colour range for all states", "sameRange", (settings) => settings.colour !== "kind"))
         : null,

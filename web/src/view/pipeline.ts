@@ -66,18 +66,23 @@ export class Pipeline {
   private width = 0;
   private height = 0;
 
-  constructor(private readonly renderer: THREE.WebGLRenderer, private readonly balls: Balls, private readonly chains: Rods, private readonly walls: Walls) {
+  constructor(
+    private readonly renderer: THREE.WebGLRenderer, private readonly balls: Balls, private readonly chains: Rods, private readonly walls: Walls,
+  ) {
     const sharp = { minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter, generateMipmaps: false } as const;
     this.nearest = new THREE.WebGLRenderTarget(1, 1, {
-      ...sharp, format: THREE.RedIntegerFormat, type: THREE.UnsignedIntType, internalFormat: "R32UI", depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
+      ...sharp, format: THREE.RedIntegerFormat, type: THREE.UnsignedIntType, internalFormat: "R32UI",
+      depthTexture: new THREE.DepthTexture(1, 1, THREE.UnsignedIntType),
     });
-    this.sample = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, depthBuffer: true });
-    this.sum = new THREE.WebGLRenderTarget(1, 1, { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, type: THREE.HalfFloatType, depthBuffer: false });
+    const smooth = { minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter, generateMipmaps: false } as const;
+    this.sample = new THREE.WebGLRenderTarget(1, 1, { ...smooth, depthBuffer: true });
+    this.sum = new THREE.WebGLRenderTarget(1, 1, { ...smooth, type: THREE.HalfFloatType, depthBuffer: false });
     this.shade = screenPass(SHADE_FRAGMENT, {
       nearest: { value: this.nearest.texture }, depths: { value: this.nearest.depthTexture }, balls: { value: balls.places },
       colours: { value: balls.colours }, deep: { value: 1 }, pixels: { value: new THREE.Vector2() }, cutInView: { value: balls.cutInView },
       paper: { value: new THREE.Color() }, occlusion: { value: 1 }, reachOfShade: { value: 1 }, samples: { value: 8 },
-      turn: { value: 0 }, ghost: { value: 0 }, plain: { value: 0 }, lineWidth: { value: 1 }, ballProjection: { value: new THREE.Matrix4() }, ballView: { value: new THREE.Matrix4() },
+      turn: { value: 0 }, ghost: { value: 0 }, plain: { value: 0 },
+      lineWidth: { value: 1 }, ballProjection: { value: new THREE.Matrix4() }, ballView: { value: new THREE.Matrix4() },
     }, { depthTest: true, depthWrite: true, depthFunc: THREE.AlwaysDepth });
     this.copy = screenPass(COPY_FRAGMENT, { picture: { value: this.sum.texture }, factor: { value: 1 } }, {});
     this.add = screenPass(COPY_FRAGMENT, { picture: { value: this.sample.texture }, factor: { value: 1 } }, {
@@ -118,7 +123,7 @@ export class Pipeline {
     this.chains.uniforms.leastRadius.value = 0.4 * perPixel;
     this.walls.edges.uniforms.leastRadius.value = 0.6 * look.pixelRatio * perPixel;
     this.chains.uniforms.fog.value = look.fog;
-    this.chains.uniforms.fogRange.value.set(look.depths_mm[0] / (camera.far - camera.near), look.depths_mm[1] / (camera.far - camera.near));
+    this.chains.uniforms.fogRange.value.set(...look.depths_mm).divideScalar(camera.far - camera.near);
     for (const rods of [this.chains, this.walls.edges]) rods.uniforms.paper.value.copy(look.paper);
   }
 

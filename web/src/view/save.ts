@@ -25,7 +25,8 @@ function filmType(): string | undefined {
 /** Why this browser makes no film; empty when it does. */
 export function whyNoFilm(states: number): string {
   if (states < 2) return "A film needs more than one stored state.";
-  if (!("captureStream" in HTMLCanvasElement.prototype) || filmType() === undefined) return "This browser records no WebM films; Firefox, Chrome and Edge do.";
+  const records = "captureStream" in HTMLCanvasElement.prototype && filmType() !== undefined;
+  if (!records) return "This browser records no WebM films; Firefox, Chrome and Edge do.";
   return "";
 }
 

@@ -19,6 +19,10 @@ const NO_CHAINS: ChainRods = {
   range: { low: 0, high: 1, below: false, above: false },
 };
 
+function meanRadius(radius: Float32Array): number {
+  return radius.reduce((sum, r) => sum + r, 0) / Math.max(1, radius.length);
+}
+
 function ballBox(state: BodyState, radius: Float32Array): THREE.Box3 {
   const box = new THREE.Box3(), { position } = state;
   const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -54,13 +58,14 @@ export class SpecimenScene {
     const state = await this.specimen.state(settings.state);
     const colour = settings.colour;
     const values = colour === "kind" ? null : await this.specimen.quantity(colour, settings.state);
-    const range = values === null || colour === "kind" ? null : settings.sameRange ? await this.rangeOfAll(colour) : robustRange(values);
+    let range: Range | null = null;
+    if (values && colour !== "kind") range = settings.sameRange ? await this.rangeOfAll(colour) : robustRange(values);
     this.state = state;
     this.range = range;
     this.once("place", [settings.state], () => {
       this.balls.place(state);
       this.box = ballBox(state, geometry.radius);
-      this.branch_mm = meanBranch(state);
+      this.branch_mm = state.contacts.count > 0 ? meanBranch(state) : 2 * meanRadius(geometry.radius);
       this.walls.set(state.walls, this.wallTop(), LOWER_HALF, UPPER_HALF);
     });
     this.once("paint", [colour, colour !== "kind" && settings.state, settings.sameRange], () => {
@@ -69,7 +74,8 @@ export class SpecimenScene {
     });
     const cut = [settings.cut, settings.cutAt, settings.cutOther, settings.state];
     const visible = this.cutSide(settings);
-    this.once("choose", [settings.gravel, settings.rubber, settings.grains === "hidden", settings.cutWhole && cut.join()], () => this.choose(settings, visible));
+    const chosen = [settings.gravel, settings.rubber, settings.grains === "hidden", settings.cutWhole && cut.join()];
+    this.once("choose", chosen, () => this.choose(settings, visible));
     this.once("chains", [settings.state, settings.chains, settings.threshold, settings.chainColour, ...cut], () => {
       this.rods = settings.chains ? chainRods(geometry, state, settings.threshold, settings.chainColour, visible) : NO_CHAINS;
       this.chains.set(this.rods.count, this.rods.start, this.rods.end, this.rods.radius, this.rods.colour, true);
@@ -84,6 +90,15 @@ export class SpecimenScene {
       const holding = walls.filter((wall) => !/wing/i.test(wall.name));
       for (const point of wallCorners(holding, this.wallTop()).flat()) box.expandByPoint(new THREE.Vector3(...point));
     }
+    return box;
+  }
+
+  /** Of what the cut leaves. */
+  visibleBox(settings: ViewSettings): THREE.Box3 {
+    const box = this.box.clone();
+    if (settings.cut === "none") return box;
+    const { axis, sign, at } = this.cutPlane(settings.cut, settings);
+    box[sign > 0 ? "max" : "min"][axis] = at;
     return box;
   }
 
@@ -111,6 +126,12 @@ export class SpecimenScene {
     return joinRanges(ranges);
   }
 
+  /** Points are hidden where `sign` times their coordinate is greater than `sign` times `at` (mm). */
+  private cutPlane(axis: Exclude<Axis, "none">, settings: ViewSettings): { axis: Exclude<Axis, "none">; sign: number; at: number } {
+    const low = this.box.min[axis], high = this.box.max[axis];
+    return { axis, sign: CUT_SIDE[axis] * (settings.cutOther ? -1 : 1), at: low + settings.cutAt * (high - low) };
+  }
+
   /** Sets the plane of the cut; tells of a point whether it stays visible. */
   private cutSide(settings: ViewSettings): (x: number, y: number, z: number) => boolean {
     const plane = this.balls.cut;
@@ -118,8 +139,7 @@ export class SpecimenScene {
       plane.set(0, 0, 0, 1e9);
       return () => true;
     }
-    const axis = settings.cut, sign = CUT_SIDE[axis] * (settings.cutOther ? -1 : 1);
-    const at = this.box.min[axis] + settings.cutAt * (this.box.max[axis] - this.box.min[axis]);
+    const { axis, sign, at } = this.cutPlane(settings.cut, settings);
     const normal = { x: 0, y: 0, z: 0, [axis]: sign };
     const visible = (x: number, y: number, z: number) => normal.x * x + normal.y * y + normal.z * z <= sign * at;
     if (settings.cutWhole) plane.set(0, 0, 0, 1e9);
@@ -137,10 +157,11 @@ export class SpecimenScene {
   }
 }
 
-export function colourOf([r, g, b]: Rgb, into: THREE.Color): THREE.Color {
-  // Programs of the view work with the numbers of the screen, so none is converted.
-  into.r = r / 255;
-  into.g = g / 255;
-  into.b = b / 255;
-  return into;
+/** Programs of the view work with the numbers of the screen, so none is converted as three would. */
+export function asColour([r, g, b]: Rgb): THREE.Color {
+  const colour = new THREE.Color();
+  colour.r = r / 255;
+  colour.g = g / 255;
+  colour.b = b / 255;
+  return colour;
 }

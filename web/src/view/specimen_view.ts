@@ -10,7 +10,7 @@ import { css } from "./palettes.ts";
 import { Panel } from "./panel.ts";
 import { Pipeline, type Look } from "./pipeline.ts";
 import { recordFilm, save, savePicture, whyNoFilm } from "./save.ts";
-import { colourOf, SpecimenScene } from "./scene.ts";
+import { asColour, SpecimenScene } from "./scene.ts";
 import { DEFAULTS, type Axis, type Colour, type ViewSettings } from "./settings.ts";
 import { Specimen } from "./specimen.ts";
 import { themeOf, watchTheme, WHITE_PAPER, type Theme } from "./theme.ts";
@@ -36,8 +36,12 @@ export interface ViewHandle {
   dispose(): void;
 }
 
-const TOO_OLD = "The view of the specimen needs WebGL 2, which this browser or its settings do not offer; all numbers of the page are there without it.";
+const TOO_OLD =
+  "The view of the specimen needs WebGL 2, which this browser or its settings do not offer; all numbers of the page are there without it.";
+const HINT =
+  "Drag to turn, right button or two fingers to shift; click first for the wheel. Keys: arrows, + and −. A click names the grain.";
 const PLAY_MILLISECONDS = 700;
+const GHOST = { solid: 0, pale: 0.76, hidden: 1 };
 
 function rendererName(gl: WebGL2RenderingContext): string {
   const info = gl.getExtension("WEBGL_debug_renderer_info");
@@ -67,7 +71,10 @@ class SpecimenView implements ViewHandle {
   private firstPaint = 0;
   private pressedAt = [0, 0];
 
-  constructor(container: HTMLElement, private readonly specimen: Specimen, private readonly name: string, private readonly renderer: THREE.WebGLRenderer, private readonly started: number) {
+  constructor(
+    container: HTMLElement, private readonly specimen: Specimen, private readonly name: string, private readonly renderer: THREE.WebGLRenderer,
+    private readonly started: number,
+  ) {
     this.canvas = renderer.domElement;
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
@@ -79,7 +86,7 @@ class SpecimenView implements ViewHandle {
     this.viewpoint = new Viewpoint(this.canvas, (moving) => this.painter?.request(moving));
     this.painter = new Painter({
       canvas: this.canvas, gl, pipeline: this.pipeline, camera: this.viewpoint.camera, slow: this.slow,
-      look: () => this.look_(this.theme, this.pixelRatio), painted: () => this.drawScreenOverlay(),
+      look: () => this.lookFor(this.theme, this.pixelRatio), painted: () => this.drawScreenOverlay(),
     });
     const { geometry, view } = specimen;
     this.panel = new Panel({
@@ -89,7 +96,7 @@ class SpecimenView implements ViewHandle {
       changed: (change) => void this.set(change), look: (direction) => void this.look(direction), play: () => this.togglePlay(),
       picture: () => void this.busy("", () => this.savePicture()), film: () => void this.busy("Recording", () => this.saveFilm()),
     }, this.settings);
-    const hint = el("p", { class: "view-note" }, "Drag to turn, right button or two fingers to shift; click first for the wheel. Keys: arrows, + and −. A click names the grain.");
+    const hint = el("p", { class: "view-note" }, HINT);
     this.stage = el("div", { class: "view-stage" }, this.canvas, this.overlayCanvas);
     this.root = el("div", { class: "view-root" }, el("div", { class: "view-main" }, this.stage, this.live, hint), this.panel.element);
     container.append(this.root);
@@ -155,7 +162,10 @@ class SpecimenView implements ViewHandle {
   }
 
   stats() {
-    return { balls: this.specimen.geometry.balls, firstPaintMilliseconds: this.firstPaint, drawMilliseconds: this.painter.drawMilliseconds, renderer: this.rendererName };
+    return {
+      balls: this.specimen.geometry.balls, firstPaintMilliseconds: this.firstPaint, drawMilliseconds: this.painter.drawMilliseconds,
+      renderer: this.rendererName,
+    };
   }
 
   dispose(): void {
@@ -177,11 +187,11 @@ class SpecimenView implements ViewHandle {
     return this.slow ? 1 : Math.min(2, devicePixelRatio);
   }
 
-  private look_(theme: Theme, pixelRatio: number): Look {
+  private lookFor(theme: Theme, pixelRatio: number): Look {
     const { grains, colour } = this.settings;
     return {
-      paper: colourOf(theme.paper, new THREE.Color()), ghost: grains === "pale" ? 0.76 : grains === "hidden" ? 1 : 0, plain: colour === "kind" ? 0 : 1,
-      fog: grains === "solid" ? 0 : 0.6, depths_mm: this.viewpoint.depths(this.scene.box),
+      paper: asColour(theme.paper), ghost: GHOST[grains], plain: colour === "kind" ? 0 : 1,
+      fog: grains === "solid" ? 0 : 0.6, depths_mm: this.viewpoint.depths(this.scene.visibleBox(this.settings)),
       reachOfShade_mm: 1.1 * this.scene.branch_mm, shadeSamples: this.slow ? 8 : 12, pixelRatio,
     };
   }
@@ -247,7 +257,9 @@ class SpecimenView implements ViewHandle {
     const ball = this.pipeline.ballAt(Math.floor(event.offsetX * scale), Math.floor(event.offsetY * scale));
     if (ball < 0) return this.say();
     const k = this.settings.state, quantity = (colour: Exclude<Colour, "kind">) => this.specimen.quantity(colour, k);
-    const [displacement, rotation, stress, strain] = await Promise.all([quantity("displacement"), quantity("rotation"), quantity("stress"), quantity("strain")]);
+    const [displacement, rotation, stress, strain] = await Promise.all([
+      quantity("displacement"), quantity("rotation"), quantity("stress"), quantity("strain"),
+    ]);
     this.live.textContent = describeBody(this.specimen.geometry, this.specimen.geometry.body[ball]!, { displacement, rotation, stress, strain });
   }
 
@@ -289,7 +301,7 @@ class SpecimenView implements ViewHandle {
     const image = await this.painter.hold(async () => {
       this.pipeline.resize(Math.round(width * scale), Math.round(height * scale));
       for (let k = 0; k < samples; ++k) {
-        this.pipeline.draw(this.viewpoint.camera, this.look_(theme, scale), k, samples === 1);
+        this.pipeline.draw(this.viewpoint.camera, this.lookFor(theme, scale), k, samples === 1);
         await new Promise((resolve) => setTimeout(resolve));
       }
       return this.pipeline.read();
@@ -341,7 +353,9 @@ export async function createSpecimenView(container: HTMLElement, view: View, nam
   const opening = typeof DecompressionStream === "undefined" ? null : Specimen.open(view);
   opening?.catch(() => {});
   const canvas = document.createElement("canvas");
-  const gl = canvas.getContext("webgl2", { antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
+  const gl = canvas.getContext("webgl2", {
+    antialias: false, depth: false, alpha: false, preserveDrawingBuffer: true, powerPreference: "high-performance",
+  });
   if (!gl || !opening) return instead(TOO_OLD);
   try {
     const specimen = await opening;

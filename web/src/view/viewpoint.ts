@@ -8,7 +8,7 @@ export type Direction = "front" | "top" | "oblique";
 /** Turn about the vertical from the front, and height above the horizon, degrees. */
 const DIRECTIONS: Record<Direction, [number, number]> = { front: [0, 0], top: [0, 90], oblique: [-32, 24] };
 /** Of the page, pixels. */
-const LEGEND_WIDTH = 130, LEGEND_HEIGHT = 110, CAPTION_HEIGHT = 34, EDGE = 8;
+const LEGEND_WIDTH = 130, LEGEND_HEIGHT = 110, CAPTION_HEIGHT = 32, SCALE_HEIGHT = 26, AXES_WIDTH = 66;
 const KEY_TURN = Math.PI / 36, KEY_ZOOM = 1.15;
 
 export class Viewpoint {
@@ -64,7 +64,8 @@ export class Viewpoint {
   private place(azimuth: number, height: number, size: number): void {
     // Straight from above there would be no up: a hair less keeps x to the right.
     const h = THREE.MathUtils.clamp(height, -Math.PI / 2 + 1e-4, Math.PI / 2 - 1e-4);
-    this.camera.position.set(size * Math.cos(h) * Math.sin(azimuth), -size * Math.cos(h) * Math.cos(azimuth), size * Math.sin(h)).add(this.controls.target);
+    const level = size * Math.cos(h);
+    this.camera.position.set(level * Math.sin(azimuth), -level * Math.cos(azimuth), size * Math.sin(h)).add(this.controls.target);
     this.controls.update();
     this.changed(!this.jumping);
   }
@@ -117,13 +118,14 @@ export class Viewpoint {
     this.setFrustum();
   }
 
-  /** Part of the picture, as shares of it, that caption and legends leave free: the legends stand at the right, in narrow pictures below. */
+  /** Part of the picture, as shares of it, that caption, axes, scale and legends leave free: the legends stand at the right, in narrow
+   * pictures below. */
   private free(): { left: number; right: number; top: number; bottom: number } {
     const width = Math.max(1, this.canvas.clientWidth), height = Math.max(1, this.canvas.clientHeight);
     const wide = width > 640;
     return {
-      left: 0, right: wide ? 1 - LEGEND_WIDTH / width : 1, top: CAPTION_HEIGHT / height,
-      bottom: wide ? 1 - EDGE / height : Math.max(0.5, 1 - LEGEND_HEIGHT / height),
+      left: wide ? AXES_WIDTH / width : 0, right: wide ? 1 - LEGEND_WIDTH / width : 1, top: CAPTION_HEIGHT / height,
+      bottom: wide ? 1 - SCALE_HEIGHT / height : Math.max(0.5, 1 - LEGEND_HEIGHT / height),
     };
   }
 

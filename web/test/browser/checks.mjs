@@ -14,12 +14,13 @@ export async function unfold(page, everything) {
     for (let round = 0; round < 4; round += 1) {
       for (const box of document.querySelectorAll("details:not([open])")) {
         const test = box.closest("details.test");
-        if (!all && ((test && test !== document.querySelector("details.test")) || box.matches(".tools:not(.chart:first-child > .tools)"))) continue;
+        if (!all && ((test && test !== document.querySelector("details.test")) || (box.matches(".tools") && box !== document.querySelector(".tools")))) continue;
         box.open = true;
         count += 1;
       }
       await new Promise((done) => setTimeout(done, 40));
     }
+    for (let wait = 0; wait < 400 && document.querySelector("svg.plot:not([viewBox])"); wait += 1) await new Promise((done) => setTimeout(done, 25));
     return count;
   }, everything);
   return { problems: [], fact: `${opened} parts` };
@@ -184,7 +185,7 @@ export async function accessibility(page, dark) {
   if (dark) await page.evaluate(() => document.querySelector("button.theme").click());
   else await page.evaluate(axe);
   const found = await page.evaluate(async (rules) => {
-    const result = await window.axe.run(document, { resultTypes: ["violations"], runOnly: rules });
+    const result = await window.axe.run(document, { resultTypes: ["violations"], runOnly: rules, preload: false, iframes: false });
     return result.violations.map(({ id, impact, help, nodes }) => ({ id, impact, help, count: nodes.length, first: nodes[0]?.html.slice(0, 160), why: nodes[0]?.failureSummary }));
   }, dark ? { type: "rule", values: ["color-contrast"] } : { type: "tag", values: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] });
   if (dark) await page.evaluate(() => document.querySelector("button.theme").click());
@@ -194,6 +195,25 @@ export async function accessibility(page, dark) {
     problems: serious.map(({ id, help, count, first, why }) => `${id} (${count}): ${help}; first ${first}; ${why}`),
     fact: lesser.length > 0 ? `lesser findings: ${lesser.join("; ")}` : "",
   };
+}
+
+/** The files of a chart: SVG that stands by itself, PNG, CSV with all rows. */
+export async function files(page) {
+  const box = page.locator("figure.chart .tools").first();
+  await box.evaluate((details) => (details.open = true));
+  const problems = [];
+  const take = async (name) => {
+    const [download] = await Promise.all([page.waitForEvent("download", { timeout: 20000 }), box.locator("button", { hasText: name }).first().click()]);
+    return readFileSync(await download.path());
+  };
+  const svg = (await take("SVG")).toString();
+  if (!/^<svg xmlns/.test(svg) || /class=|var\(/.test(svg) || !/stroke="rgb/.test(svg)) problems.push("the SVG needs the style of the page");
+  const png = await take("PNG");
+  if (png.subarray(1, 4).toString() !== "PNG" || png.length < 5000) problems.push("the PNG is empty");
+  const lines = (await take("CSV")).toString().trim().split("\r\n");
+  const rows = await box.evaluate((details) => details.querySelectorAll("tbody tr").length);
+  if (lines.length < rows + 1 || new Set(lines.map((line) => line.replace(/"[^"]*"/g, "").split(",").length)).size !== 1) problems.push("the CSV lacks rows or cells");
+  return { problems, fact: `SVG ${svg.length} B, PNG ${png.length} B, CSV ${lines.length} lines` };
 }
 
 /** On paper the page is light, without navigation, and no chart is wider than the sheet. */
