@@ -205,7 +205,7 @@ export interface View {
    * [a, b, c] the row of k; a row of [-1, -1, -1]: position[k] = residual[k] + position of ball 0 of the grain before (of the
    * origin for the first grain) when k is 0; [0, -1, -1]: position[k] = position[0] + residual[k]. */
   rubber_prediction: [number, number, number][];
-  /** Shape of each clump (row of shapes), its pebbles follow from the shape. */
+  /** Number of pebbles of each clump. */
   clump_pebbles: PackedIntegers;
   /** For every pebble: place in the frame of its clump, in units of radius_step_mm, three numbers each; and its radius. */
   pebble_position: PackedIntegers;
