@@ -17,12 +17,14 @@ build_packages=(
 )
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
 # see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,
-# see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
+# see docs/decisions/0017-processor-targets.md. The Python package needs python3-dev, pybind11 and pandas; pip, setuptools and
+# wheel make it installable, see docs/how-to/python.md. A cluster of two node daemons runs campaigns, see tests/cluster.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
   clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
   python3 python3-numpy python3-h5py python3-matplotlib
+  python3-dev pybind11-dev python3-pandas python3-pytest python3-pip python3-setuptools python3-wheel
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
 )
