@@ -388,6 +388,11 @@ class Simulation:
         return self._own.rubber_positions()
 
     @property
+    def rubber_ball_mass(self) -> float:
+        """kg, of each of the 35 balls of a rubber grain."""
+        return self._own.rubber_ball_mass()
+
+    @property
     def contacts(self) -> dict[str, NDArray]:
         """Contacts between different bodies that carry force, at the last step: ball_i, ball_j, body_i, body_j, kind (0 g-g, 1 g-r,
         2 r-r), point m, normal from i to j, normal_force N, shear_force N on i, branch m, is_sliding. Bodies: rubber grains first."""
