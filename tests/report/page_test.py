@@ -62,7 +62,7 @@ def make_pages(program, source, folder, has_demo):
         skip("this build of the program carries no page")
     run("report", "mixture", "--lab", "laboratory.csv", "-q")
     run("campaign", "run", "study.toml", "-o", "campaign", "-q", "-w", "2", "-j", "1")
-    run("run", source / "cases/grain_compression.toml", "-o", "grain", "-q", "--set", "plates.velocity=100 mm/s")
+    run("run", source / "cases/grain_compression.toml", "-o", "grain", "-q", "--set", "compression.plate_velocity=100 mm/s")
     pages = ["mixture", "campaign", "grain"]
     if has_demo:
         run("run", source / "cases/quick.toml", "-o", "quick", "-q")

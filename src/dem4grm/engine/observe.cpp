@@ -207,6 +207,15 @@ int count_lost_bodies(const Simulation& s, std::span<const Bounds> rooms) {
   return static_cast<int>(std::count(lost.begin(), lost.end(), 1));
 }
 
+double gravity_energy(const Simulation& s) {
+  Vec3 moment;  // kg m
+  for (int id = 0; id < s.balls.n_rubber_balls(); ++id) {
+    moment += s.balls.position(s.balls.index_of_id(id)) * s.rubber_of_grain(id / k_grain_balls).ball_mass;
+  }
+  for (const Clump& c : s.clumps.clumps) moment += c.position * c.mass;
+  return -dot(s.scene.gravity, moment);
+}
+
 Vec3 body_position(const Simulation& s, int body) {
   if (body >= s.balls.n_grains) return s.clumps.clumps[static_cast<std::size_t>(body - s.balls.n_grains)].position;
   Vec3 sum;

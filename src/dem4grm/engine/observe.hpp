@@ -60,6 +60,9 @@ Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double 
 /// Number of bodies with a ball whose centre lies in none of the rooms.
 int count_lost_bodies(const Simulation& s, std::span<const Bounds> rooms);
 
+/// formula:  -sum m g . x, J: potential energy of the grains in the gravity of the scene, zero at the origin.
+double gravity_energy(const Simulation& s);
+
 /// Centre of a rubber grain (mean of its balls) and of a clump.
 Vec3 body_position(const Simulation& s, int body);
 
