@@ -11,7 +11,7 @@ project = "DEM4GRM"
 copyright = "the authors of DEM4GRM, BSD-3-Clause"
 version = release = re.search(r"project\(dem4grm VERSION ([\d.]+)", (HERE.parents[1] / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 
-extensions = ["myst_parser", "table_of_contents", "mathml", "anchors"]
+extensions = ["myst_parser", "table_of_contents", "mathml", "anchors", "theme_script"]
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 3
 source_suffix = {".md": "markdown"}

@@ -85,6 +85,9 @@ def complaints(site):
         if "$$" in "".join(page.text):
             found.append(f"{name}: a formula that is not drawn")
         found += [f"{name}: the picture {source} has no words for who cannot see it" for source, words in page.pictures if not words]
+    for path in sorted(site.rglob("*.js")):
+        if re.search(r"^(import|export)\b", path.read_text(encoding="utf-8", errors="replace"), re.MULTILINE):
+            found.append(f"{path.relative_to(site)}: a module, which no browser reads from the disk")
     for path in sorted(site.rglob("*.css")):
         for pair in STYLE_URL.findall(path.read_text(encoding="utf-8", errors="replace")):
             if any(is_elsewhere(target) for target in pair):
@@ -95,12 +98,13 @@ def complaints(site):
 class Planted(unittest.TestCase):
     """The checks find what is planted."""
 
-    def complaints_of(self, body, style=""):
+    def complaints_of(self, body, style="", script=""):
         with tempfile.TemporaryDirectory() as folder:
             site = Path(folder)
             (site / "index.html").write_text(f"<html><body>{body}</body></html>", encoding="utf-8")
             (site / "other.html").write_text("<h1 id='here'>x</h1>", encoding="utf-8")
             (site / "a.css").write_text(style, encoding="utf-8")
+            (site / "a.js").write_text(script, encoding="utf-8")
             return complaints(site)
 
     def test_what_is_wrong_is_found(self):
@@ -111,6 +115,7 @@ class Planted(unittest.TestCase):
             self.assertEqual(len(self.complaints_of(body)), 1, body)
         self.assertEqual(len(self.complaints_of("", "@import 'https://fonts.example/x.css';")), 1)
         self.assertEqual(len(self.complaints_of("", "p { background: url(//example/x.png) }")), 1)
+        self.assertEqual(len(self.complaints_of("", script="'use strict';\nimport A from './a.js';")), 1)
 
     def test_what_is_right_is_let_through(self):
         body = ("<a href='other.html#here'>x</a><a href='https://example.org'>x</a><code>$$</code><a href='mailto:a@example.org'>x</a>"

@@ -7,6 +7,7 @@ mean. With `--marks` nothing is run: all pages are only looked through for block
 tests/cluster runs among them.
 """
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -66,7 +67,8 @@ def main(program, pages):
             place = Path(folder) / page.replace("/", "-")
             (place / "runs").mkdir(parents=True)
             try:
-                if "runs/quick" in (ROOT / page).read_text(encoding="utf-8"):
+                blocks = snippets.blocks_of((ROOT / page).read_text(encoding="utf-8"))
+                if any(b.action == "run" and re.search(r"runs/quick\b(?!-)", b.text) for b in blocks):
                     if not demo.exists():
                         make_demo(program, environment, demo)
                     subprocess.run(["cp", "-r", demo, place / "runs/quick"], check=True)
