@@ -156,10 +156,10 @@ std::vector<PairKey> join_sorted(std::vector<std::vector<PairKey>>& parts) {
   return keys;
 }
 
-/// False for a sphere with a place that is no number, or farther away than any grain can be: a calculation that went wrong. It has no
+/// False for a sphere with a place that is no number, or is beyond all reason: a calculation that went wrong. It has no
 /// neighbours, so that the watchdog can find it and say so.
 bool is_in_this_world(const Sphere& s) {
-  constexpr double k_world = 1e6;  // m
+  constexpr double k_world = 1e100;  // m
   const Vec3& c = s.centre;
   return std::fabs(c.x) < k_world && std::fabs(c.y) < k_world && std::fabs(c.z) < k_world && s.radius < k_world;
 }
