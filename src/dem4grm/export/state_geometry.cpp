@@ -14,7 +14,7 @@
 namespace dem {
 namespace {
 
-constexpr double k_to_mm = 1e3, k_to_kPa = 1e-3, k_to_deg = 180.0 / std::numbers::pi;
+constexpr double k_to_mm = 1e3, k_to_kilopascal = 1e-3, k_to_deg = 180.0 / std::numbers::pi;
 constexpr float k_no_number = std::numeric_limits<float>::quiet_NaN();
 
 using Reals = VtkArray::Reals;
@@ -62,7 +62,7 @@ void add_body_arrays(const ShownState& state, std::size_t begin, std::size_t cou
   data.point_data.push_back({"rotation_deg", lengths_of(of_bodies(state.rotation), k_to_deg)});
   data.point_data.push_back({"rotation_vector_deg", scaled(of_bodies(state.rotation), k_to_deg), 3});
   data.point_data.push_back({"contacts", Wholes(contacts.begin(), contacts.end())});
-  data.point_data.push_back({"mean_stress_kPa", scaled(of_bodies(state.loads.mean_stress), k_to_kPa)});
+  data.point_data.push_back({"mean_stress_kPa", scaled(of_bodies(state.loads.mean_stress), k_to_kilopascal)});
 }
 
 /// Mean strain of the bonds of each rubber grain that are not broken; not a number when all are.
@@ -133,7 +133,7 @@ VtkPolyData balls_of(const ShownState& state) {
     const bool is_rubber = b < state.now.n_rubber();
     kind.push_back(is_rubber ? k_rubber : k_gravel);
     rotation.push_back(static_cast<float>(norm(state.rotation[b]) * k_to_deg));
-    stress.push_back(static_cast<float>(state.loads.mean_stress[b] * k_to_kPa));
+    stress.push_back(static_cast<float>(state.loads.mean_stress[b] * k_to_kilopascal));
     strain.push_back(is_rubber ? static_cast<float>(state.bond_strain[b]) : k_no_number);
   }
   data.point_data = {{"radius_mm", scaled(packing.radius, k_to_mm)},

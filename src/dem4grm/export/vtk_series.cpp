@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 #include <set>
 #include <string_view>
 #include <system_error>
+#include <thread>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/export/paraview_view.hpp"
@@ -23,6 +25,8 @@ namespace {
 constexpr const char* k_default_folder = "vtk";
 constexpr const char* k_states = "states";
 constexpr const char* k_view = "view.py";
+constexpr int k_attempts = 5;
+constexpr std::chrono::milliseconds k_pause{50};
 
 /// The file itself; of a folder its results, or its specimen when shear has stored nothing yet.
 std::filesystem::path source_file(const std::filesystem::path& path) {
@@ -33,7 +37,7 @@ std::filesystem::path source_file(const std::filesystem::path& path) {
     throw MissingFileError(
         fmt::format("{}: is a campaign; export one of its tests, {}/tests/NAME", path.string(), path.string()));
   }
-  const std::filesystem::path results = path / file_name::k_results, specimen = path / file_name::k_specimen;
+  std::filesystem::path results = path / file_name::k_results, specimen = path / file_name::k_specimen;
   const bool has_specimen = std::filesystem::exists(specimen, ignored);
   if (std::filesystem::exists(results, ignored) && !(has_specimen && read_outline(results).frames.empty())) {
     return results;
@@ -113,9 +117,7 @@ void write_states(const std::vector<StoredFrame>& all, std::span<const StoredFra
   }
 }
 
-}  // namespace
-
-VtkExport export_vtk(const VtkExportOptions& options) {
+VtkExport export_once(const VtkExportOptions& options) {
   VtkExport out;
   out.source = source_file(options.source);
   const StoredResults outline = read_outline(out.source);
@@ -138,6 +140,20 @@ VtkExport export_vtk(const VtkExportOptions& options) {
   }
   replace_file(out.folder / k_view, view_script(out.series, std::filesystem::absolute(out.folder)));
   return out;
+}
+
+}  // namespace
+
+VtkExport export_vtk(const VtkExportOptions& options) {
+  // A running test writes a state in some milliseconds, and who reads in the midst of it finds half of it.
+  for (int attempt = 1; attempt < k_attempts; ++attempt) {
+    try {
+      return export_once(options);
+    } catch (const IoError&) {
+      std::this_thread::sleep_for(k_pause);
+    }
+  }
+  return export_once(options);
 }
 
 }  // namespace dem

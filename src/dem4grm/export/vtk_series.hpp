@@ -28,8 +28,8 @@ struct VtkExport {
   std::uintmax_t bytes = 0;
 };
 
-/// Reads only the file of results, which a running test may go on writing. Every file is replaced as a whole, the lists
-/// last. Throws MissingFileError when there is no such file or state, IoError when it is damaged or OUT cannot be
+/// Reads only the file of results, which a running test may go on writing: what cannot be read is tried again for a fifth of
+/// a second. Every file is replaced as a whole, the lists last. Throws MissingFileError when there is no such file or state, IoError when it is damaged or OUT cannot be
 /// written.
 VtkExport export_vtk(const VtkExportOptions& options);
 
