@@ -32,6 +32,9 @@ from .runs import print_progress, run  # noqa: E402
 from .simulation import Material, Simulation  # noqa: E402
 from .verification import verification_cases, verify  # noqa: E402
 
+if _os.environ.get("DEM4GRM_TARGET"):  # as the command line: other loops than the best ones, with the same bits
+    _core.choose_kernel_target(_os.environ["DEM4GRM_TARGET"])
+
 __version__ = _core.version
 __commit__ = _core.commit
 

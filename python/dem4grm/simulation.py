@@ -313,8 +313,6 @@ class Simulation:
 
     @threads.setter
     def threads(self, n: int) -> None:
-        if n < 1:
-            raise ValueError("at least one thread")
         self._own.threads = n
 
     # ---- what there is -----------------------------------------------------------------------------------------------

@@ -20,6 +20,11 @@
 #include <thread>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "dem4grm/core/error.hpp"
+#include "dem4grm/core/thread_trial.hpp"
+
 namespace dem {
 
 /// What the working thread has for the waiting one; it waits until it was taken.
@@ -121,6 +126,17 @@ void run_beside(std::function<void(Letterbox<Event>&)> work, const std::function
   }
   if (raised) std::rethrow_exception(raised);
   if (box->thrown()) std::rethrow_exception(box->thrown());
+}
+
+/// The OpenMP runtime ends the process when it cannot have its threads, so they are tried before. Throws Error with
+/// ExitCode::memory.
+inline void check_threads(int threads) {
+  const int possible = threads > 1 ? possible_threads(threads) : 1;
+  if (possible >= threads) return;
+  throw Error(ExitCode::memory,
+              fmt::format("only {} of {} threads can be started here (limits: ulimit -u, ulimit -v, the "
+                          "control group); choose fewer with threads",
+                          possible, threads));
 }
 
 /// The same for work that tells nothing and cannot be stopped on its way; Ctrl-C is heard when it has ended.

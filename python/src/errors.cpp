@@ -23,6 +23,7 @@ void raise(const Error& error, const std::vector<std::string>& problems) {
 }  // namespace
 
 void translate_errors() {
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 asks for
   py::register_local_exception_translator([](std::exception_ptr thrown) {
     if (!thrown) return;
     try {

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("commit") = dem::k_commit;
   m.attr("compiler") = std::string(dem::k_compiler) + ", " + dem::k_build_type;
   m.def("kernel_target", [] { return std::string(dem::kernel_target()); });
+  m.def("choose_kernel_target", [](const std::string& name) { dem::choose_kernel_target(name); });
   m.def("processors", [] { return omp_get_num_procs(); });
   dem::translate_errors();
   dem::bind_cases(m);

@@ -92,6 +92,7 @@ py::object run(const LoadedCase& loaded, const RunWish& wish) {
   volatile std::sig_atomic_t stop_flag = k_no_stop;
   std::optional<RunOutcome> outcome;
   const int threads = wish.threads > 0 ? wish.threads : omp_get_num_procs();
+  check_threads(threads);
   const auto work = [&](Letterbox<RunEvent>& box) {
     omp_set_num_threads(threads);
     Listener listener(box, remaining_time_of(loaded.test, wish.is_specimen_only), wish.interval, threads,

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -185,7 +186,13 @@ void bind_state(OwnClass& c) {
              const InUse claimed(t);
              return t.choose_time_step(stress);
            })
-      .def_readwrite("threads", &OwnTest::threads)
+      .def_property(
+          "threads", [](const OwnTest& t) { return t.threads; },
+          [](OwnTest& t, int threads) {
+            if (threads < 1) throw std::invalid_argument("a simulation has at least one thread");
+            check_threads(threads);
+            t.threads = threads;
+          })
       .def_property_readonly("time_step",
                              [](OwnTest& t) {
                                const InUse claimed(t);
