@@ -31,7 +31,8 @@ begin "install what is missing"
 tools/install_dependencies.sh build
 finish
 
-begin "configure"
+begin "make the report page, configure"
+tools/build_page.sh
 cmake --preset release -B "$build" -DDEM4GRM_BUILD_TESTS=OFF -DDEM4GRM_UNITY=ON
 finish
 

@@ -80,7 +80,7 @@ rm -f "$logs"/*.ctest
 # ---- what the phases do --------------------------------------------------------------------------------------------
 cpp_files() {
   local folder
-  for folder in src apps tests bench; do
+  for folder in src apps tests bench python; do
     [[ ! -d $folder ]] || find "$folder" -name '*.cpp' -o -name '*.hpp'
   done | sort
 }
@@ -106,7 +106,8 @@ run_tests() {
 }
 
 release_build() {
-  configure release "$release"
+  tools/build_page.sh
+  configure release "$release" -DDEM4GRM_BUILD_PYTHON=ON
   build "$release"
 }
 

@@ -20,7 +20,7 @@ from pathlib import Path
 FILE_LIMIT, FILE_REMARK, FUNCTION_LIMIT = 500, 300, 120
 RULES = {"file-length", "function-length", "licence", "marker"}
 CPP_SUFFIXES = {".cpp", ".hpp"}
-CPP_FOLDERS = {"src", "apps", "tests", "bench"}
+CPP_FOLDERS = {"src", "apps", "tests", "bench", "python"}
 SOURCE_SUFFIXES = {".cpp", ".hpp", ".h", ".cu", ".cuh", ".py", ".sh", ".cmake", ".ts", ".js", ".mjs"}
 EXCEPTIONS = "tools/size_exceptions.txt"
 LICENCE = "SPDX-License-Identifier: BSD-3-Clause"

@@ -5,6 +5,7 @@
 #   tools/install_dependencies.sh build        to build and to run
 #   tools/install_dependencies.sh test         the same, and all that test.sh uses
 #   tools/install_dependencies.sh peers        the programs of others that DEM4GRM is compared with
+#   tools/install_dependencies.sh octave       GNU Octave with what it draws by, for the test of examples/matlab
 #   tools/install_dependencies.sh --list test  names the packages and stops
 #
 # Exit codes: 0 everything is installed, 64 wrong usage, 69 packages are missing and cannot be installed.
@@ -13,31 +14,46 @@ set -euo pipefail
 build_packages=(
   g++ cmake ninja-build make pkg-config git ca-certificates
   libtomlplusplus-dev libcli11-dev libspdlog-dev libfmt-dev nlohmann-json3-dev
-  libhdf5-dev libxxhash-dev libeigen3-dev libboost-dev
+  libhdf5-dev zlib1g-dev libxxhash-dev libeigen3-dev libboost-dev
 )
+# The report page is made by node and npm. Whoever has them from elsewhere keeps those: Debian's npm does not go with another node.
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+  build_packages+=(nodejs npm)
+fi
 # clang-14, its OpenMP runtime and llvm-14 (which names source lines in reports) serve the thread sanitizer only,
 # see docs/decisions/0003-thread-sanitizer.md. g++-aarch64 and qemu compile and run the engine for 64-bit Arm,
 # see docs/decisions/0017-processor-targets.md. A cluster of two node daemons runs campaigns, see tests/cluster.
+# chromium opens the report page, see web/test.
 # Sphinx, MyST and a theme build the documentation site, see docs/decisions/0029-documentation-site.md.
+# VTK reads what `dem4grm export` writes, see docs/decisions/0027-vtk-export.md.
+# The Python package needs python3-dev, pybind11 and pandas; pip, setuptools and wheel make it installable, see docs/how-to/python.md.
 test_packages=(
   "${build_packages[@]}"
   libgtest-dev librapidcheck-dev
   clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
-  python3 python3-numpy python3-h5py python3-matplotlib
+  python3 python3-numpy python3-h5py python3-matplotlib python3-vtk9
+  python3-dev pybind11-dev python3-pandas python3-pytest python3-pip python3-setuptools python3-wheel
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
+  chromium
   python3-sphinx python3-myst-parser furo fonts-texgyre-math
 )
 
 # See docs/verification/independent-codes.md and bench/peers; no other check uses them.
 peer_packages=(lammps liggghts yade mpi-default-bin python3 python3-numpy python3-matplotlib)
 
+# 310 MB, so only when asked for. Without a display Octave draws by gnuplot, prints through Ghostscript and needs these letters.
+octave_packages=(octave gnuplot-nox ghostscript fonts-freefont-otf hdf5-tools python3 python3-matplotlib)
+
 usage() {
-  echo "usage: tools/install_dependencies.sh [--list] build|test|peers" >&2
+  echo "usage: tools/install_dependencies.sh [--list] build|test|peers|octave" >&2
   exit 64
 }
 
 is_installed() { [[ "$(dpkg-query -W -f='${db:Status-Status}\n' "$1" 2>/dev/null | sort -u)" == installed ]]; }
+
+# Debian's ParaView has VTK's Python modules of its own, and each of the two packages would remove the other.
+is_served() { is_installed "$1" || { [[ "$1" == python3-vtk9 ]] && is_installed python3-paraview; }; }
 
 has_candidate() {
   local candidate
@@ -55,6 +71,7 @@ case "$1" in
   build) packages=("${build_packages[@]}") ;;
   test) packages=("${test_packages[@]}") ;;
   peers) packages=("${peer_packages[@]}") ;;
+  octave) packages=("${octave_packages[@]}") ;;
   *) usage ;;
 esac
 if [[ $list_only == yes ]]; then
@@ -70,7 +87,7 @@ fi
 
 missing=()
 for package in "${packages[@]}"; do
-  is_installed "$package" || missing+=("$package")
+  is_served "$package" || missing+=("$package")
 done
 if [[ ${#missing[@]} -eq 0 ]]; then
   echo "install_dependencies: all ${#packages[@]} packages of group '$1' are installed"

@@ -17,6 +17,7 @@
 #include "dem4grm/runs/folder_lock.hpp"
 #include "dem4grm/runs/output_folder.hpp"
 #include "dem4grm/runs/stop_cause.hpp"
+#include "report_writer.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
 
@@ -164,8 +165,9 @@ void run_study_here(const CampaignOptions& options) {
                            planned.crew.workers, planned.crew.threads, duration_text(planned.time)));
   }
   const LocalOutcome outcome = run_locally(folder, planned, record, settings);
-  report(options, folder, record, outcome.tests);
   const StateCounts n = count_states(outcome.tests);
+  if (n.done > 0 && !options.has_no_report) write_report_at_end(folder.root(), options.is_quiet);
+  report(options, folder, record, outcome.tests);
   if (outcome.was_stopped) {
     throw Error(ExitCode::stopped, fmt::format("stopped {}; the same command goes on: dem4grm campaign run {} -o {}",
                                                stop_words(stop_requested), options.study, folder.root().string()));

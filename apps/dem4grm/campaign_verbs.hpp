@@ -14,7 +14,7 @@ struct CampaignOptions {
   CrewWish crew;
   double memory_gigabytes = 0.0;
   double most_hours = 0.0;  ///< 0: no limit
-  bool is_json = false, is_quiet = false, is_watch = false, retries = false;
+  bool is_json = false, is_quiet = false, is_watch = false, retries = false, has_no_report = false;
   std::string scheduler;  ///< "slurm", or empty: this machine
   SlurmOptions slurm;
   bool is_dry_run = false;

@@ -83,6 +83,9 @@ int run_program(int argc, char** argv) {
   dem::add_sieve(app);
   dem::add_profile(app);
   dem::add_micro(app);
+  dem::add_report(app);
+  dem::add_watch(app);
+  dem::add_export(app);
   dem::add_verify(app);
   dem::add_campaign(app);
   try {

@@ -63,6 +63,7 @@ void add_run_verb(CLI::App& campaign, const std::shared_ptr<CampaignOptions>& op
   add_crew(*verb, *options);
   add_most_hours(*verb, options->most_hours);
   verb->add_flag("--retry", options->retries, "also tests that failed in their physics");
+  verb->add_flag("--no-report", options->has_no_report, "do not write report.html at the end");
   verb->add_flag("--json", options->is_json, "at the end the state of all tests as JSON on stdout");
   verb->add_flag("-q,--quiet", options->is_quiet, "no progress, no report; errors only");
   verb->footer("Example:\n  dem4grm campaign run cases/studies/quick.toml -o runs/quick-study");

@@ -10,6 +10,7 @@
 #include "dem4grm/core/thread_trial.hpp"
 #include "dem4grm/runs/run_case.hpp"
 #include "progress_line.hpp"
+#include "report_writer.hpp"
 #include "run_report.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
@@ -28,6 +29,7 @@ struct RunOptions {
   std::vector<std::string> settings;
   bool is_json = false, is_quiet = false, is_verbose = false;
   bool is_specimen_only = false;
+  bool has_no_report = false;
 };
 
 Loudness loudness_of(const RunOptions& options) {
@@ -86,6 +88,10 @@ void run(const RunOptions& options) {
   settings.links.is_specimen_only = options.is_specimen_only;
   const RunOutcome outcome = run_case(loaded, settings);
   line.close_line();
+  std::error_code ignored;
+  if (!options.has_no_report && !(outcome.was_complete && std::filesystem::exists(folder / k_report_file, ignored))) {
+    write_report_at_end(folder, options.is_quiet);
+  }
   if (options.is_json) {
     JsonObject answer = outcome.summary;
     answer.push_back({"folder", folder.string()});
@@ -116,6 +122,7 @@ void add_common(CLI::App& verb, RunOptions& options) {
       ->type_name("DIR")
       ->check(not_empty());
   add_most_hours(verb, options.most_hours);
+  verb.add_flag("--no-report", options.has_no_report, "do not write report.html at the end");
   verb.add_flag("--json", options.is_json, "the summary as JSON on stdout, nothing else there");
   verb.add_flag("-q,--quiet", options.is_quiet, "no progress, no report; errors only");
 }

@@ -18,6 +18,9 @@ void add_info(CLI::App& app);
 void add_sieve(CLI::App& app);
 void add_profile(CLI::App& app);
 void add_micro(CLI::App& app);
+void add_report(CLI::App& app);
+void add_watch(CLI::App& app);
+void add_export(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_campaign(CLI::App& app);
 

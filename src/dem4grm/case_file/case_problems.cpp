@@ -97,10 +97,14 @@ void CaseProblems::throw_errors() {
   sort(errors_);
   std::string text;
   const std::size_t shown = std::min(errors_.size(), k_most_shown);
-  for (std::size_t i = 0; i < shown; ++i) text += render(errors_[i], "error") + "\n";
+  std::vector<std::string> each;
+  for (std::size_t i = 0; i < shown; ++i) {
+    each.push_back(render(errors_[i], "error"));
+    text += each.back() + "\n";
+  }
   if (shown < errors_.size()) text += fmt::format("and {} more\n", errors_.size() - shown);
   text += fmt::format("{} error{}, nothing was run", errors_.size(), errors_.size() == 1 ? "" : "s");
-  throw InputError(text);
+  throw InputError(text, std::move(each));
 }
 
 std::vector<std::string> CaseProblems::take_warnings() {

@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace dem {
 
@@ -35,7 +37,10 @@ class Error : public std::runtime_error {
 
 /// The case file, a grading or an option is wrong; the message lists every problem.
 struct InputError : Error {
-  explicit InputError(const std::string& message) : Error(ExitCode::bad_case, message) {}
+  explicit InputError(const std::string& message, std::vector<std::string> each = {})
+      : Error(ExitCode::bad_case, message), problems(std::move(each)) {}
+  /// One by one, where a file was read as a whole; empty: the message is the one.
+  std::vector<std::string> problems;
 };
 /// A file that was asked for is not there or cannot be read.
 struct MissingFileError : Error {

@@ -139,6 +139,29 @@ bool has_only_numbers(const Simulation& s) {
   return std::isfinite(sum);
 }
 
+namespace {
+
+Trouble find_runaway(const Simulation& s) {
+  double farthest = k_longest_move;
+  int thrown = -1;
+  for (int id = 0; id < s.balls.n_balls(); ++id) {
+    const double move = norm(s.balls.velocity(s.balls.index_of_id(id))) * s.dt / s.balls.radius_of_id(id);
+    if (move <= farthest) continue;
+    farthest = move;
+    thrown = id;
+  }
+  if (thrown < 0) return {};
+  return {
+      TroubleKind::runaway,
+      fmt::format(
+          "{} moves at {:.3g} m/s, {:.2g} of its radius in one time step of {:.3g} s (limit {:g}): the calculation is "
+          "unstable",
+          s.name_of_ball(thrown), norm(s.balls.velocity(s.balls.index_of_id(thrown))), farthest, s.dt, k_longest_move),
+      {}};
+}
+
+}  // namespace
+
 Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double overlap_limit) {
   for (int id = 0; id < s.balls.n_balls(); ++id) {
     const int i = s.balls.index_of_id(id);
@@ -155,6 +178,7 @@ Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double 
               p};
     }
   }
+  if (Trouble thrown = find_runaway(s); thrown.kind != TroubleKind::none) return thrown;
   for (const Wall& wall : s.walls) {
     const Vec3 at = wall.corner + wall.velocity;
     if (!std::isfinite(at.x + at.y + at.z)) {
@@ -181,6 +205,15 @@ int count_lost_bodies(const Simulation& s, std::span<const Bounds> rooms) {
     if (!is_in_one_of(rooms, p)) lost[static_cast<std::size_t>(s.body_of_ball(id))] = 1;
   }
   return static_cast<int>(std::count(lost.begin(), lost.end(), 1));
+}
+
+double gravity_energy(const Simulation& s) {
+  Vec3 moment;  // kg m
+  for (int id = 0; id < s.balls.n_rubber_balls(); ++id) {
+    moment += s.balls.position(s.balls.index_of_id(id)) * s.rubber_of_grain(id / k_grain_balls).ball_mass;
+  }
+  for (const Clump& c : s.clumps.clumps) moment += c.position * c.mass;
+  return -dot(s.scene.gravity, moment);
 }
 
 Vec3 body_position(const Simulation& s, int body) {

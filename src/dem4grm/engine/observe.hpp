@@ -36,7 +36,7 @@ struct OverlapReport {
 };
 OverlapReport worst_overlap(const Simulation& s);
 
-enum class TroubleKind : std::uint8_t { none, no_number, outside, overlap };
+enum class TroubleKind : std::uint8_t { none, no_number, outside, runaway, overlap };
 
 /// What a watchdog found first.
 struct Trouble {
@@ -49,12 +49,19 @@ struct Trouble {
 /// as memory is read, so it can be asked often.
 bool has_only_numbers(const Simulation& s);
 
-/// A value that is no number, a ball whose centre lies in none of the rooms, an overlap beyond the limit (over the smaller
-/// radius).
+/// A ball that moves by more than this share of its radius in one step has been thrown by an unstable step: in a healthy test, fills
+/// and breaking force chains included, it is a hundredth of it.
+inline constexpr double k_longest_move = 0.1;
+
+/// A value that is no number, a ball whose centre lies in none of the rooms, a ball that moves too far in a step, an overlap beyond
+/// the limit (over the smaller radius).
 Trouble find_trouble(const Simulation& s, std::span<const Bounds> rooms, double overlap_limit);
 
 /// Number of bodies with a ball whose centre lies in none of the rooms.
 int count_lost_bodies(const Simulation& s, std::span<const Bounds> rooms);
+
+/// formula:  -sum m g . x, J: potential energy of the grains in the gravity of the scene, zero at the origin.
+double gravity_energy(const Simulation& s);
 
 /// Centre of a rubber grain (mean of its balls) and of a clump.
 Vec3 body_position(const Simulation& s, int body);

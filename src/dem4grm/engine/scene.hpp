@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "dem4grm/core/lanes.hpp"
 #include "dem4grm/core/quaternion.hpp"
 #include "dem4grm/engine/settings.hpp"
 #include "dem4grm/grains/clump_template.hpp"
@@ -37,6 +38,7 @@ struct Scene {
   BondSettings bond;
   ContactSettings contact;
   IntegrationSettings integration;
+  Vec3 gravity;  ///< m/s2, acts on every grain; a shear test has none
 
   double rubber_ball_radius = 0.0;  ///< m, of the rubber grains; of the reference size when there are several
   /// [grains] m; empty: all have the reference size. Grains come in runs of k_grains_of_one_size of equal radius (the
@@ -51,6 +53,8 @@ struct Scene {
 inline const MaterialSettings& settings_of(const Scene& scene, Material m) {
   return m == k_rubber ? scene.rubber : scene.gravel;
 }
+
+DEM_INLINE bool has_gravity(const Scene& scene) { return dot(scene.gravity, scene.gravity) > 0.0; }
 
 inline Elastic elastic(const MaterialSettings& m) { return {m.shear_modulus, m.poisson_ratio}; }
 

@@ -157,6 +157,7 @@ class Simulation {
   std::vector<int> size_of_block;        ///< [n_blocks] row of rubber_sizes
   FrictionTable friction;
   PlateServo servo;
+  std::vector<PlateServo> more_servos;     ///< of further plates, for tests with several loaded ones
   AlignedArray<double> lane_inverse_mass;  ///< [n_blocks * W] 1/kg, of one ball; 0 in unused lanes
   std::vector<WallReaction> reactions;     ///< [n_walls]
   std::vector<Vec3> last_wall_velocity;    ///< [n_walls] before the present step

@@ -104,6 +104,24 @@ void exchange_ledger(StateArchive& archive, Ledger& l) {
   archive.exchange_fixed("clump_damping", std::span(l.clump_damping));
 }
 
+/// Saved only where there are any: the checkpoints of a shear test stay as they were.
+void exchange_more_servos(StateArchive& archive, std::vector<PlateServo>& servos) {
+  if (archive.is_loading() ? !archive.has_group("more_servos") : servos.empty()) return;
+  archive.group("more_servos", [&] {
+    auto n = static_cast<int>(servos.size());
+    archive.exchange("count", n);
+    servos.resize(static_cast<std::size_t>(n));
+    for (std::size_t k = 0; k < servos.size(); ++k) {
+      archive.group(std::to_string(k), [&] {
+        archive.exchange("wall", servos[k].wall);
+        archive.exchange("force", servos[k].target_force);
+        archive.exchange("gain", servos[k].gain);
+        archive.exchange("cap", servos[k].speed_cap);
+      });
+    }
+  });
+}
+
 void exchange_settings(StateArchive& archive, Simulation& s) {
   for (std::size_t m = 0; m < k_materials; ++m) {
     archive.exchange_fixed("friction_" + std::to_string(m), std::span(s.friction.between_grains[m]));
@@ -113,6 +131,7 @@ void exchange_settings(StateArchive& archive, Simulation& s) {
   archive.exchange("servo_force", s.servo.target_force);
   archive.exchange("servo_gain", s.servo.gain);
   archive.exchange("servo_cap", s.servo.speed_cap);
+  exchange_more_servos(archive, s.more_servos);
   archive.exchange("time_step", s.dt);
   archive.exchange("last_time_step", s.last_dt);
   archive.exchange("time", s.time);

@@ -25,20 +25,21 @@ void Simulation::step() {
 namespace {
 
 /// Sets the velocity of the servo plate along its normal; other components stay as prescribed.
-void steer_plate(Simulation& s) {
-  if (s.servo.wall < 0) return;
-  const auto w = static_cast<std::size_t>(s.servo.wall);
+void steer_plate(Simulation& s, const PlateServo& servo) {
+  if (servo.wall < 0) return;
+  const auto w = static_cast<std::size_t>(servo.wall);
   Wall& plate = s.walls[w];
   const double force = -dot(s.reactions[w].force, plate.normal);
   const double inward =
-      servo_velocity(s.servo.target_force - force, s.reactions[w].stiffness, s.dt, s.servo.gain, s.servo.speed_cap);
+      servo_velocity(servo.target_force - force, s.reactions[w].stiffness, s.dt, servo.gain, servo.speed_cap);
   plate.velocity = perpendicular(plate.velocity, plate.normal) + plate.normal * inward;
 }
 
 }  // namespace
 
 void move_walls(Simulation& s) {
-  steer_plate(s);
+  steer_plate(s, s.servo);
+  for (const PlateServo& servo : s.more_servos) steer_plate(s, servo);
   double fastest_wall2 = 0.0;
   for (std::size_t w = 0; w < s.walls.size(); ++w) {
     Wall& wall = s.walls[w];

@@ -116,6 +116,9 @@ class LabObserver {
   virtual bool wants_checkpoint(bool /*is_new_stage*/) { return false; }
   /// All that is needed to go on from here. May throw to stop the test.
   virtual void checkpoint(const StateArchive& /*state*/) {}
+  /// The complete state after the last step of shear, from which a longer test may go on. Asked before it is made.
+  virtual bool wants_end_state() { return false; }
+  virtual void end_state(const StateArchive& /*state*/) {}
   /// Once, before anything else, when shear goes on from a checkpoint.
   virtual void resumed(const ResumedRun& /*past*/) {}
 

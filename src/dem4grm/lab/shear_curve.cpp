@@ -32,6 +32,14 @@ double mean_normal_stress(std::span<const ShearRow> rows) {
   return sum / static_cast<double>(rows.size());
 }
 
+/// The displacement is the middle of the first and the last row, as that of the peak has always been.
+ShearPoint point_of(std::span<const ShearRow> rows) {
+  double rise = 0.0;
+  for (const ShearRow& r : rows) rise += r.vertical_displacement;
+  return {0.5 * (rows.front().displacement + rows.back().displacement), rise / static_cast<double>(rows.size()),
+          mean_normal_stress(rows)};
+}
+
 /// Least-squares slope of the plate's height against displacement.
 double rise(std::span<const ShearRow> rows) {
   double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
@@ -95,7 +103,7 @@ ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
       const double mean = mean_stress(rows.subspan(begin, last + 1 - begin));
       if (!(mean <= c.peak_stress)) {
         c.peak_stress = mean;
-        c.displacement_at_peak = 0.5 * (rows[begin].displacement + rows[last].displacement);
+        c.peak_point = point_of(rows.subspan(begin, last + 1 - begin));
       }
     }
     if (rows[last].displacement >= 0.999 * k_dilation_window) {
@@ -103,9 +111,12 @@ ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
       steepest = std::max(steepest, rise(rows.subspan(from, last + 1 - from)));
     }
   }
+  c.displacement_at_peak = c.peak_point.displacement;
   c.is_hardening = c.displacement_at_peak > end - k_hardening_zone;
   if (end >= 0.999 * k_residual_zone) {
-    c.residual_stress = mean_stress(rows.subspan(window_begin(rows, rows.size() - 1, k_residual_zone)));
+    const auto zone = rows.subspan(window_begin(rows, rows.size() - 1, k_residual_zone));
+    c.residual_stress = mean_stress(zone);
+    c.residual_point = point_of(zone);
   }
   const auto half =
       std::find_if(rows.begin(), rows.end(), [&](const ShearRow& r) { return r.shear_stress >= 0.5 * c.peak_stress; });

@@ -26,6 +26,13 @@ struct Stage {
   Dilatancy dilatancy{k_not_measured, k_not_measured, k_not_measured};
 };
 
+/// What a laboratory reports beside a strength: means over the window that the strength is a mean of.
+struct ShearPoint {
+  double displacement = k_not_measured;           ///< m, of the halves against each other
+  double vertical_displacement = k_not_measured;  ///< m, rise of the plate since shear began
+  double normal_stress = k_not_measured;          ///< Pa, over the nominal area
+};
+
 /// SI units; angles in radians; not a number where the record is shorter than a window.
 struct ShearCurve {
   double peak_stress = k_not_measured;           ///< Pa, largest running mean over 0.1 mm
@@ -40,6 +47,8 @@ struct ShearCurve {
   Stage at_peak;                             ///< window around displacement_at_peak
   Stage fastest_dilation;                    ///< window of the largest rate
   Stage residual;                            ///< the last 2 mm
+  ShearPoint peak_point;                     ///< of peak_stress
+  ShearPoint residual_point;                 ///< of residual_stress
 };
 
 /// Rows in order of displacement, at equal intervals. A record of less than 0.1 mm has no curve.

@@ -23,6 +23,10 @@ namespace {
 
 constexpr int k_watch_interval = 500;    // steps between two looks of the watchdog
 constexpr int k_numbers_interval = 100;  // between two quick ones, for values that are no number
+/// Kinetic energy over all that was ever given: more than 1 cannot be, and one ball that is thrown out makes it many times that.
+constexpr double k_most_kinetic = 1.0;
+/// The mean normal stress over the last k_plate_window of displacement may be off by k_plate_limit.
+constexpr double k_plate_window = 1e-3, k_plate_limit = 0.3;
 /// The halves reach their velocity over this displacement, so that the start is no blow.
 constexpr double k_start_ramp = 2e-5;  // m
 /// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
@@ -75,6 +79,7 @@ void ShearStage::run(StateArchive* from) {
     }
     if (is_watched) keep(false);
   }
+  if (observer_.wants_end_state()) observer_.end_state(complete_state());
 }
 
 void ShearStage::tell_velocity() {
@@ -172,6 +177,8 @@ void ShearStage::report() {
 void ShearStage::watch() {
   const Trouble trouble = find_trouble(s_, ShearBox::rooms_of(s_.walls), k_overlap_limit);
   if (trouble.kind == TroubleKind::none) {
+    check_energy();
+    check_plate();
     if (!rows_.empty()) report();
     return;
   }
@@ -179,6 +186,37 @@ void ShearStage::watch() {
   throw PhysicsError(
       fmt::format("{} (stage shear, {:.3f} mm){}", trouble.text, displacement_ * 1e3,
                   advice.empty() ? ". Try a smaller integration.time_step_safety or a slower shear.velocity" : advice));
+}
+
+/// What moves must have got its energy from the walls or from what was stored: more than that is made by an unstable step.
+void ShearStage::check_energy() const {
+  const EnergyReport now = s_.energy();
+  const double given = now.boundary_work - start_energy_.boundary_work + start_energy_.kinetic +
+                       start_energy_.contact_strain + start_energy_.bond_strain;
+  if (!(now.kinetic > k_most_kinetic * given)) return;
+  throw PhysicsError(
+      fmt::format("the grains move with {:.3g} J, more than the {:.3g} J that the walls and the stored energy could "
+                  "give (stage shear, "
+                  "{:.3f} mm): the calculation is unstable. Try a smaller integration.time_step_safety",
+                  now.kinetic, given, displacement_ * 1e3));
+}
+
+/// A plate that is far from its stress for long makes another test than the one that was asked for.
+void ShearStage::check_plate() const {
+  double sum = 0.0;
+  int n = 0;
+  for (auto row = rows_.rbegin(); row != rows_.rend() && row->displacement > displacement_ - k_plate_window;
+       ++row, ++n) {
+    sum += row->normal_stress;
+  }
+  if (n == 0 || displacement_ < k_plate_window) return;
+  const double off = sum / n / test_.shear.normal_stress - 1.0;
+  if (std::fabs(off) <= k_plate_limit) return;
+  throw PhysicsError(
+      fmt::format("the top plate holds {:.3g} kPa where {:g} kPa were asked for, over the last {:g} mm (stage shear, "
+                  "{:.3f} mm): it "
+                  "cannot follow. Try a slower shear.velocity, a larger servo.gain or servo.shear_speed_cap",
+                  sum / n / 1e3, test_.shear.normal_stress / 1e3, k_plate_window * 1e3, displacement_ * 1e3));
 }
 
 void ShearStage::write_frame() {
@@ -201,10 +239,13 @@ StateArchive ShearStage::specimen_state() {
 }
 
 void ShearStage::keep(bool is_new_stage) {
-  if (!observer_.wants_checkpoint(is_new_stage)) return;
+  if (observer_.wants_checkpoint(is_new_stage)) observer_.checkpoint(complete_state());
+}
+
+StateArchive ShearStage::complete_state() {
   StateArchive archive = specimen_state();
   archive.group("shear", [&] { exchange_all(archive); });
-  observer_.checkpoint(archive);
+  return archive;
 }
 
 void ShearStage::exchange_all(StateArchive& archive) {

@@ -42,10 +42,13 @@ class ShearStage {
   [[nodiscard]] EnergyReport since_start(EnergyReport e) const;
   void report();
   void watch();
+  void check_energy() const;
+  void check_plate() const;
   void tell_velocity();
   void write_frame();
   void record_micro();
   StateArchive specimen_state();
+  StateArchive complete_state();
   void keep(bool is_new_stage);
   void exchange_all(StateArchive& archive);
 

@@ -80,6 +80,10 @@ JsonValue::JsonValue(const std::vector<std::string>& values) {
 
 std::string json_text(const JsonObject& object) { return dumped(object); }
 
+std::string compact_json_text(const JsonObject& object) {
+  return to_json(object).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string json_text(const JsonList& list) { return dumped(list); }
 
 JsonObject parse_json(std::string_view text, const std::filesystem::path& source) {

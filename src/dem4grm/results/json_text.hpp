@@ -40,6 +40,8 @@ struct JsonField {
 
 /// The object as text with two spaces of indent and a final line break. Equal values give equal bytes.
 std::string json_text(const JsonObject& object);
+/// The same on one line, for programs.
+std::string compact_json_text(const JsonObject& object);
 /// The same for a list.
 std::string json_text(const JsonList& list);
 

@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/results/hdf5_handle.hpp"
-#include "dem4grm/results/results_file.hpp"
 
 namespace dem {
 namespace {
@@ -144,21 +142,26 @@ RubberState read_rubber(const Handle& frame, std::size_t n_grains) {
   return out;
 }
 
-MicroState micro_state_in(const Handle& frame) {
+}  // namespace
+
+MicroState read_micro_state(const Handle& frame) {
   const std::vector<std::string> columns = hdf5::names_in(hdf5::open_group(frame, "contacts"));
   if (std::find(columns.begin(), columns.end(), "is_sliding") == columns.end()) {
     throw IoError("its contacts have no friction: written before states held it, run the case again");
   }
   const std::vector<std::uint8_t> material = hdf5::read_bytes(hdf5::open_group(frame, "balls"), "material");
   MicroState out;
-  read_bodies(frame, material, out.network);
-  out.network.box = find_sample_box(read_walls(frame));
-  read_contacts(frame, material, out.network);
+  try {
+    read_bodies(frame, material, out.network);
+    out.network.box = find_sample_box(read_walls(frame));
+    read_contacts(frame, material, out.network);
+  } catch (const std::out_of_range&) {
+    throw IoError("a contact names a ball or body that is not there");
+  }
   out.rubber = read_rubber(frame, hdf5::dataset_shape(hdf5::open_group(frame, "rubber_grains"), "centre").front());
   return out;
 }
 
-/// Throws MissingFileError, with the states that there are, when none is near enough.
 const StoredFrame& choose_frame(const std::filesystem::path& path, const std::vector<StoredFrame>& frames,
                                 std::optional<double> displacement) {
   if (frames.empty()) throw MissingFileError(fmt::format("{}: holds no state yet", path.string()));
@@ -173,8 +176,6 @@ const StoredFrame& choose_frame(const std::filesystem::path& path, const std::ve
                                      *displacement * 1e3, list));
 }
 
-}  // namespace
-
 StoredMicroState read_micro_state(const std::filesystem::path& results, std::optional<double> displacement) {
   const StoredResults outline = read_outline(results);
   if (outline.test != "direct_shear") {
@@ -182,17 +183,12 @@ StoredMicroState read_micro_state(const std::filesystem::path& results, std::opt
         fmt::format("{}: is of a {} test; micro-mechanics needs a direct shear test", results.string(), outline.test));
   }
   const StoredFrame& frame = choose_frame(results, outline.frames, displacement);
-  const auto damaged = [&](std::string_view why) {
-    return IoError(fmt::format("{}: state {} cannot be read: {}", results.string(), frame.name, why));
-  };
   try {
     const Handle file = hdf5::open_file(results, hdf5::Access::read);
     const Handle group = hdf5::open_group(hdf5::open_group(file, "frames"), frame.name);
-    return {frame.name, frame.displacement, frame.state_hash, micro_state_in(group)};
+    return {frame.name, frame.displacement, frame.state_hash, read_micro_state(group)};
   } catch (const IoError& e) {
-    throw damaged(e.what());
-  } catch (const std::out_of_range&) {
-    throw damaged("a contact names a ball or body that is not there");
+    throw IoError(fmt::format("{}: state {} cannot be read: {}", results.string(), frame.name, e.what()));
   }
 }
 

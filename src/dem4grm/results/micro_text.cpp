@@ -8,8 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "dem4grm/micro/fabric.hpp"
-#include "dem4grm/micro/force_anisotropy.hpp"
+#include "dem4grm/results/histogram_curves.hpp"
 #include "dem4grm/results/micro_table.hpp"
 #include "dem4grm/results/output_file.hpp"
 
@@ -77,38 +76,17 @@ JsonObject options_as_json(const MicroOptions& o) {
           {"seed", static_cast<std::int64_t>(o.seed)}};
 }
 
-/// Value of the curve that the second harmonic gives, N.
-double signed_shear_at(const PolarHistogram& h, const SignedShearAnisotropy& fit, double angle) {
-  return -normal_force_anisotropy(h).fit.mean * fit.amplitude * std::sin(2.0 * (angle - fit.direction));
-}
-
 void append_histogram(std::string& text, const PolarHistogram& h, const char* set) {
-  const std::vector<double> density = orientation_density(h);
-  const std::vector<double> normal = bin_means(h, h.normal_sum), shear = bin_means(h, h.shear_sum);
-  const HarmonicFit fabric_fit = fabric_anisotropy(h);
-  const HarmonicFit normal_fit = normal_force_anisotropy(h).fit, shear_fit = shear_force_anisotropy(h).fit;
-  const std::vector<double> signed_shear = bin_means(h, h.signed_shear_sum);
-  const SignedShearAnisotropy signed_fit = signed_shear_anisotropy(h, ForceMean::orientations);
-  const std::size_t half = h.counts.size();
-  for (std::size_t k = 0; k < 2 * half; ++k) {
-    const std::size_t b = k % half;  // n and -n
-    const double angle = h.bin_centre(k);
-    const bool has_force = h.counts[b] > 0.0;
+  const HistogramCurves curves = histogram_curves(h);
+  for (std::size_t k = 0; k < curves.angle_deg.size(); ++k) {
     text += set;
-    const auto add = [&](double value, bool is_there) {
+    for (const std::vector<double>* column :
+         {&curves.angle_deg, &curves.contacts, &curves.density, &curves.density_fit, &curves.normal_force,
+          &curves.normal_force_fit, &curves.shear_force, &curves.shear_force_fit, &curves.signed_shear,
+          &curves.signed_shear_fit}) {
       text += ',';
-      if (is_there && !std::isnan(value)) append_number(text, value);
-    };
-    add((static_cast<double>(k) + 0.5) * 360.0 / h.bins, true);
-    add(h.counts[b], true);
-    add(density[b], true);
-    add(value_at(fabric_fit, 2, angle), true);
-    add(normal[b], has_force);
-    add(value_at(normal_fit, 2, angle), true);
-    add(shear[b], has_force);
-    add(value_at(shear_fit, 4, angle), true);
-    add(signed_shear[b], has_force);
-    add(signed_shear_at(h, signed_fit, angle), true);
+      if (!std::isnan((*column)[k])) append_number(text, (*column)[k]);
+    }
     text += '\n';
   }
 }

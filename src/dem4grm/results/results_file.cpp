@@ -53,9 +53,10 @@ StoredFrame read_frame(const hdf5::Handle& frames, const std::string& name) {
   return out;
 }
 
-/// True when a file has /meta, these frames, and nothing else.
-bool holds_just(const std::filesystem::path& path, std::span<const FrameInfo> frames) {
+/// True when a file has /meta of this case, these frames, and nothing else.
+bool holds_just(const std::filesystem::path& path, const ResultsOrigin& origin, std::span<const FrameInfo> frames) {
   const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+  if (hdf5::read_text(hdf5::open_group(file, "meta"), "resolved_toml") != origin.resolved_toml) return false;
   std::vector<std::string> wanted;
   for (const FrameInfo& f : frames) wanted.push_back(frame_name(f.number));
   return hdf5::names_in(file) == std::vector<std::string>{"frames", "meta"} &&
@@ -66,7 +67,7 @@ bool holds_just(const std::filesystem::path& path, std::span<const FrameInfo> fr
 
 ResultsFile::ResultsFile(std::filesystem::path path, const ResultsOrigin& origin, std::span<const FrameInfo> kept)
     : path_(std::move(path)) {
-  if (holds_just(path_, kept)) return;  // a copy has the same content, but not the same bytes
+  if (holds_just(path_, origin, kept)) return;  // a copy has the same content, but not the same bytes
   std::filesystem::path draft = path_;
   draft += ".tmp";
   const ResultsFile fresh(draft, origin);

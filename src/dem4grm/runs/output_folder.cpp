@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "dem4grm/case_file/case_differences.hpp"
+#include "dem4grm/lab/prolongation.hpp"
 #include "dem4grm/results/output_file.hpp"
 #include "dem4grm/results/specimen_file.hpp"
 
@@ -30,6 +31,7 @@ constexpr std::array k_results_of_run{file_name::k_summary,
                                       file_name::k_micro,
                                       file_name::k_walls,
                                       file_name::k_previous_checkpoint,
+                                      file_name::k_end_state,
                                       file_name::k_profiles};
 
 std::optional<std::string> content_of(const std::filesystem::path& path) {
@@ -42,6 +44,37 @@ bool is_there(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::symlink_status(path, error);
   return status.type() != std::filesystem::file_type::not_found && status.type() != std::filesystem::file_type::none;
+}
+
+/// The case of a text of resolved.toml when it is that of `wanted` but for a smaller displacement; else nothing.
+std::optional<DirectShearCase> shorter_case(const std::string& stored, const LoadedCase& wanted) {
+  const auto* longer = std::get_if<DirectShearCase>(&wanted.test);
+  if (longer == nullptr) return std::nullopt;
+  try {
+    const LoadedCase loaded = parse_case(stored, file_name::k_resolved);
+    const auto* shorter = std::get_if<DirectShearCase>(&loaded.test);
+    if (shorter == nullptr || shorter->shear.displacement >= longer->shear.displacement) return std::nullopt;
+    DirectShearCase same = *shorter;
+    same.shear.displacement = longer->shear.displacement;
+    return resolved_toml(same) == wanted.resolved_toml ? std::optional(*shorter) : std::nullopt;
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+bool has_state_to_go_on_from(const std::filesystem::path& folder) {
+  return is_there(folder / file_name::k_end_state) || is_there(folder / file_name::k_checkpoint) ||
+         is_there(folder / file_name::k_previous_checkpoint);
+}
+
+/// Why a shorter test in a folder cannot be prolonged; empty for a test that can be or that is another.
+std::string why_not_prolonged(const std::filesystem::path& path, const std::string& stored, const LoadedCase& loaded) {
+  const std::optional<DirectShearCase> shorter = shorter_case(stored, loaded);
+  if (!shorter) return {};
+  const std::string problem = prolongation_problem(*shorter, std::get<DirectShearCase>(loaded.test));
+  if (!problem.empty()) return ". It cannot be prolonged: " + problem;
+  if (has_state_to_go_on_from(path)) return {};
+  return fmt::format(". It cannot be prolonged, since its {} is not there", file_name::k_end_state);
 }
 
 /// What is different about the case in the folder, and what a user who meant the same test would do.
@@ -66,8 +99,10 @@ std::string other_case_message(const std::filesystem::path& path, const LoadedCa
       shear != nullptr && is_there(path / file_name::k_specimen) && has_same_specimen(*stored, *shear);
   return fmt::format(
       "{} holds another case:\n  {}\n{}{}", path.string(), fmt::join(differences, "\n  "), way_out,
-      has_specimen ? fmt::format(". Its specimen would do for this case: -o NEW_FOLDER --specimen {}", path.string())
-                   : "");
+      why_not_prolonged(path, *stored, loaded) +
+          (has_specimen
+               ? fmt::format(". Its specimen would do for this case: -o NEW_FOLDER --specimen {}", path.string())
+               : ""));
 }
 
 [[noreturn]] void throw_other_case(const std::filesystem::path& path, const LoadedCase& loaded) {
@@ -91,7 +126,12 @@ FolderContent look_into(const std::filesystem::path& folder, const LoadedCase& l
   }
   const std::optional<std::string> resolved = content_of(folder / file_name::k_resolved);
   if (resolved) {
-    if (*resolved != loaded.resolved_toml) return FolderContent::other_case;
+    if (*resolved != loaded.resolved_toml) {
+      const std::optional<DirectShearCase> shorter = shorter_case(*resolved, loaded);
+      const bool goes_on = shorter && has_state_to_go_on_from(folder) &&
+                           prolongation_problem(*shorter, std::get<DirectShearCase>(loaded.test)).empty();
+      return goes_on ? FolderContent::shorter : FolderContent::other_case;
+    }
     return is_there(folder / file_name::k_summary) ? FolderContent::complete : FolderContent::unfinished;
   }
   // Files of our names without a case beside them are not ours to overwrite; the case itself may lie there.
@@ -140,7 +180,8 @@ OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded,
   found_ = look_into(path_, loaded);
   if (found_ == FolderContent::other_case) throw_other_case(path_, loaded);
   if (found_ == FolderContent::complete) return;
-  has_checkpoint_ = found_ == FolderContent::unfinished &&
+  if (found_ == FolderContent::shorter) become_longer(loaded);
+  has_checkpoint_ = (found_ == FolderContent::unfinished || found_ == FolderContent::shorter) &&
                     (is_there(file(file_name::k_checkpoint)) || is_there(file(file_name::k_previous_checkpoint)));
   if (has_checkpoint_) return;
   for (const char* name : k_results_of_run) {
@@ -148,6 +189,19 @@ OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded,
     std::filesystem::remove(file(name), error);
     if (error) throw IoError(fmt::format("{}: cannot be removed: {}", file(name).string(), error.message()));
   }
+  replace_file(file(file_name::k_resolved), loaded.resolved_toml);
+  replace_file(file(file_name::k_case), loaded.source_text);
+}
+
+void OutputFolder::become_longer(const LoadedCase& loaded) {
+  // In this order, so that a process that dies on the way leaves the finished shorter test, or one of the two that goes on from its
+  // end, but never files of one beside the case of the other.
+  std::error_code error;
+  if (is_there(file(file_name::k_end_state)) && is_there(file(file_name::k_summary))) {
+    std::filesystem::rename(file(file_name::k_end_state), file(file_name::k_checkpoint), error);
+  }
+  if (!error) std::filesystem::remove(file(file_name::k_summary), error);
+  if (error) throw IoError(fmt::format("{}: the test cannot be prolonged: {}", path_.string(), error.message()));
   replace_file(file(file_name::k_resolved), loaded.resolved_toml);
   replace_file(file(file_name::k_case), loaded.source_text);
 }

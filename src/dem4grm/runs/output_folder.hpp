@@ -16,6 +16,7 @@ enum class FolderContent {
   nothing,     ///< no folder, or none of our files in it
   unfinished,  ///< the same case, begun and not finished
   complete,    ///< the same case, finished
+  shorter,     ///< the same case but for a smaller shear.displacement, with a state from which it can go on
   other_case,
 };
 
@@ -37,11 +38,14 @@ class OutputFolder {
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   /// What the folder held when the lock was taken; `complete` means that nothing was touched.
   [[nodiscard]] FolderContent found() const { return found_; }
-  /// True when an unfinished run left a checkpoint; then its other files are there too.
+  /// True when there is a checkpoint to go on from; then the other files of the run are there too.
   [[nodiscard]] bool has_checkpoint() const { return has_checkpoint_; }
   [[nodiscard]] const std::string& lock_note() const { return lock_->note(); }
 
  private:
+  /// Makes an ended test one that goes on to a larger displacement.
+  void become_longer(const LoadedCase& loaded);
+
   std::filesystem::path path_;
   std::unique_ptr<FolderLock> lock_;
   FolderContent found_ = FolderContent::nothing;

@@ -106,6 +106,9 @@ RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   if (starts_from_specimen) writer.note(note_about(*start, settings.specimen));
   if (start && checkpoint) writer.note("shear has begun already; the specimen that was named is not used");
   if (!starts_from_specimen && folder.found() == FolderContent::unfinished) writer.note(note_about(checkpoint));
+  if (folder.found() == FolderContent::shorter) {
+    writer.note("prolongs the test that the folder holds; " + note_about(checkpoint));
+  }
   try {
     return {run_test(loaded.test, writer, from), false};
   } catch (const StoppedOnRequest& stop) {

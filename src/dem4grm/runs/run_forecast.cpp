@@ -133,7 +133,7 @@ RunForecast forecast(const DirectShearCase& test, const CaseFacts& facts, const 
                      k_bytes_per_row * facts.rows + k_bytes_of_tables +  // one more state: specimen.h5
                      k_bytes_per_micro_row * static_cast<double>(micro_displacements(test).size());
   out.checkpoint_size = k_checkpoint_bytes_per_ball * facts.balls;
-  out.results_size += out.checkpoint_size;  // the complete state in specimen.h5
+  out.results_size += 2.0 * out.checkpoint_size;  // the complete states in specimen.h5 and end_state.h5
   if (has_search) out.store_size = k_usual_branches * (1.0 + static_cast<double>(stops)) * out.checkpoint_size;
   return out;
 }

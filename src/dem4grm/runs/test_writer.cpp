@@ -114,6 +114,10 @@ void TestWriter::checkpoint(const StateArchive& state) {
   }
 }
 
+void TestWriter::end_state(const StateArchive& state) {
+  write_checkpoint(folder_.file(file_name::k_end_state), state, {loaded_.resolved_toml, seconds(), {}});
+}
+
 void TestWriter::resumed(const ResumedRun& past) {
   try {
     results_.emplace(folder_.file(file_name::k_results), origin_of(loaded_), past.frames);

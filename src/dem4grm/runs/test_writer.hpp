@@ -56,6 +56,8 @@ class TestWriter : public LabObserver {
   void frame(const Simulation& state, const FrameInfo& info) override;
   bool wants_checkpoint(bool is_new_stage) override;
   void checkpoint(const StateArchive& state) override;
+  bool wants_end_state() override { return true; }
+  void end_state(const StateArchive& state) override;
   void resumed(const ResumedRun& past) override;
   std::optional<StateArchive> fetch_preparation(const std::string& name) override;
   void keep_preparation(const std::string& name, const StateArchive& state) override;

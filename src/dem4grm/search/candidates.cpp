@@ -11,7 +11,7 @@ namespace dem {
 
 namespace {
 
-constexpr int k_levels = 6;
+constexpr int k_levels = 6, k_no_level = -1;
 constexpr std::size_t k_search_block = 64;         // spheres, or groups of pairs
 constexpr std::size_t k_wall_search_block = 2048;  // balls
 
@@ -156,14 +156,23 @@ std::vector<PairKey> join_sorted(std::vector<std::vector<PairKey>>& parts) {
   return keys;
 }
 
+/// False for a sphere with a place that is no number, or farther away than any grain can be: a calculation that went wrong. It has no
+/// neighbours, so that the watchdog can find it and say so.
+bool is_in_this_world(const Sphere& s) {
+  constexpr double k_world = 1e6;  // m
+  const Vec3& c = s.centre;
+  return std::fabs(c.x) < k_world && std::fabs(c.y) < k_world && std::fabs(c.z) < k_world && s.radius < k_world;
+}
+
 /// Pairs of spheres within the skin, sorted.
 std::vector<PairKey> find_sphere_pairs(const std::vector<Sphere>& spheres, double skin) {
   double largest = 0.0;
-  for (const Sphere& s : spheres) largest = std::max(largest, s.radius);
+  for (const Sphere& s : spheres) largest = is_in_this_world(s) ? std::max(largest, s.radius) : largest;
   std::array<std::vector<int>, k_levels> members;
   std::vector<int> level(spheres.size());
   for (std::size_t i = 0; i < spheres.size(); ++i) {
-    level[i] = level_of(spheres[i].radius, largest);
+    level[i] = is_in_this_world(spheres[i]) ? level_of(spheres[i].radius, largest) : k_no_level;
+    if (level[i] == k_no_level) continue;
     members[static_cast<std::size_t>(level[i])].push_back(static_cast<int>(i));
   }
   std::array<LevelGrid, k_levels> grids;

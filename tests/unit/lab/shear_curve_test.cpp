@@ -43,6 +43,23 @@ TEST(ShearCurve, PeakAndResidualOfARiseAndFall) {
   EXPECT_FALSE(c.is_hardening);
 }
 
+TEST(ShearCurve, AStrengthComesWithItsDisplacementsAndItsNormalStress) {
+  // A peak of one window, 4.91 to 5 mm, in 10 mm; the plate rises by 0.2 of the displacement, the normal stress by 1 kPa a mm.
+  auto rows = record(
+      10e-3, [](double u) { return u > 4.905e-3 && u < 5.005e-3 ? 90e3 : 50e3; }, [](double u) { return 0.2 * u; });
+  for (ShearRow& row : rows) row.normal_stress = 100e3 + 1e6 * row.displacement;
+  const ShearCurve c = read_shear_curve(rows);
+  EXPECT_NEAR(c.peak_stress, 90e3, 1e-6);
+  EXPECT_NEAR(c.peak_point.displacement, 4.955e-3, 1e-12);  // mean of 4.91, 4.92, ... 5.00
+  EXPECT_EQ(c.displacement_at_peak, c.peak_point.displacement);
+  EXPECT_NEAR(c.peak_point.vertical_displacement, 0.2 * 4.955e-3, 1e-12);
+  EXPECT_NEAR(c.peak_point.normal_stress, 104.955e3, 1e-6);
+  EXPECT_NEAR(c.residual_stress, 50e3, 1e-6);
+  EXPECT_NEAR(c.residual_point.displacement, 9.005e-3, 1e-12);  // 8.01, 8.02, ... 10.00
+  EXPECT_NEAR(c.residual_point.vertical_displacement, 0.2 * 9.005e-3, 1e-12);
+  EXPECT_NEAR(c.residual_point.normal_stress, 109.005e3, 1e-6);
+}
+
 TEST(ShearCurve, ASingleSpikeIsNoPeak) {
   auto rows = record(
       6e-3, [](double u) { return u < 3e-3 ? 60e3 : 40e3; }, [](double) { return 0.0; });
@@ -128,6 +145,8 @@ TEST(ShearCurve, WhatARecordIsTooShortForIsNotMeasured) {
   EXPECT_GT(up_to(0.5e-3).peak_stress, 0.0);
   EXPECT_TRUE(std::isnan(up_to(0.5e-3).dilation_angle));
   EXPECT_TRUE(std::isnan(up_to(0.5e-3).residual_stress));
+  EXPECT_TRUE(std::isnan(up_to(0.5e-3).residual_point.displacement));
+  EXPECT_TRUE(std::isnan(c.peak_point.vertical_displacement));
   EXPECT_NEAR(up_to(1e-3).dilation_angle, std::atan(0.1), 1e-9);
   EXPECT_TRUE(std::isnan(up_to(1.9e-3).residual_stress));
   EXPECT_TRUE(std::isnan(up_to(1.9e-3).residual.dilatancy.rate));

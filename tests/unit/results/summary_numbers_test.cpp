@@ -15,6 +15,8 @@ DirectShearResult sample_result() {
   r.specimen.time_step.limited_by = "loaded rubber grain";
   r.curve.peak_stress = 88e3;
   r.curve.displacement_at_peak = 3e-3;
+  r.curve.peak_point = {3e-3, 0.3e-3, 101e3};
+  r.curve.residual_point = {13e-3, 0.5e-3, 99e3};
   r.curve.secant_stiffness = 50e6;
   r.curve.dilation_angle = std::numbers::pi / 18.0;
   r.curve.vertical_displacement_at_end = 0.4e-3;
@@ -79,7 +81,12 @@ TEST(Summary, HasAllPromisedNames) {
                            "inertial_number_target",
                            "peak_shear_stress_kPa",
                            "displacement_at_peak_mm",
+                           "vertical_displacement_at_peak_mm",
+                           "normal_stress_at_peak_kPa",
                            "residual_shear_stress_kPa",
+                           "displacement_at_residual_mm",
+                           "vertical_displacement_at_residual_mm",
+                           "normal_stress_at_residual_kPa",
                            "secant_stiffness_kPa_per_mm",
                            "dilation_angle_deg",
                            "vertical_displacement_at_end_mm",
@@ -98,6 +105,11 @@ TEST(Summary, ConvertsUnits) {
   EXPECT_DOUBLE_EQ(number_in(summary, "normal_stress_target_kPa"), 100.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "peak_shear_stress_kPa"), 88.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "displacement_at_peak_mm"), 3.0);
+  EXPECT_DOUBLE_EQ(number_in(summary, "vertical_displacement_at_peak_mm"), 0.3);
+  EXPECT_DOUBLE_EQ(number_in(summary, "normal_stress_at_peak_kPa"), 101.0);
+  EXPECT_DOUBLE_EQ(number_in(summary, "displacement_at_residual_mm"), 13.0);
+  EXPECT_DOUBLE_EQ(number_in(summary, "vertical_displacement_at_residual_mm"), 0.5);
+  EXPECT_DOUBLE_EQ(number_in(summary, "normal_stress_at_residual_kPa"), 99.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "secant_stiffness_kPa_per_mm"), 50.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "dilation_angle_deg"), 10.0);
   EXPECT_DOUBLE_EQ(number_in(summary, "vertical_displacement_at_end_mm"), 0.4);

@@ -107,6 +107,13 @@ void store(const ClumpLanes& c, std::size_t lane, Clump& body) {
   body.orientation = {c.orientation[0][lane], c.orientation[1][lane], c.orientation[2][lane], c.orientation[3][lane]};
 }
 
+/// Adds the weight of every lane's clump to its force.
+void add_weights(ClumpLanes& c, const Vec3& gravity) {
+  for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) {
+    put(c.force, lane, taken(c.force, lane) + gravity * c.mass[lane]);
+  }
+}
+
 /// Damping, leapfrog and rotation of one lane.
 DEM_INLINE void move(ClumpLanes& c, std::size_t lane, double dt, double kick, double alpha) {
   const Vec3 velocity_before = taken(c.velocity, lane), spin_before = taken(c.spin, lane);
@@ -140,6 +147,7 @@ double advance(Simulation& s, std::size_t begin, std::size_t end) {
     const std::size_t k = begin + lane < end ? begin + lane : begin;
     load(s.clumps.clumps[k], gather<dashpots>(s, k), c, lane);
   }
+  if (has_gravity(s.scene)) add_weights(c, s.scene.gravity);
 #pragma omp simd
   for (std::size_t lane = 0; lane < k_clump_lanes; ++lane) move(c, lane, dt, kick, alpha);
   double top_speed2 = 0.0;

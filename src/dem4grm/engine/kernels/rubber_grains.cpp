@@ -61,6 +61,14 @@ double integrate(Simulation& s, const GrainBlock& g, const BlockForces& load, do
   return fastest;
 }
 
+/// Adds the weight of every ball of a block to its load; lanes without a grain have none.
+void add_weights(BlockForces& load, const Vec3& gravity, const double* inverse_mass) {
+  for (std::size_t lane = 0; lane < k_lanes; ++lane) {
+    const Vec3 weight = inverse_mass[lane] > 0.0 ? gravity * (1.0 / inverse_mass[lane]) : Vec3{};
+    for (std::size_t slot = 0; slot < k_grain_balls; ++slot) add_load(load, load_at(slot, lane), weight, {});
+  }
+}
+
 template <HertzOptions options>
 void advance_block(Simulation& s, std::size_t block) {
   BlockForces load;
@@ -77,6 +85,7 @@ void advance_block(Simulation& s, std::size_t block) {
   }
   if (!s.grain_history.companion_shear.empty()) add_bond_companions(s, block, load, losses);
   const std::size_t first = block * k_lanes;
+  if (has_gravity(s.scene)) add_weights(load, s.scene.gravity, s.lane_inverse_mass.data() + first);
   s.block_top_speed2[block] = integrate(s, g, load, s.rubber_of_block(block).ball_radius,
                                         s.lane_inverse_mass.data() + first, s.ledger.grain_damping.data() + first);
   for (std::size_t lane = 0; lane < k_lanes; ++lane) {
