@@ -16,12 +16,14 @@ import re
 import shutil
 import subprocess
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCK = re.compile(r"(?:^<!-- (?P<marker>[^\n]*?) -->\n+)?^(?P<fence>```+)(?P<language>[^\n`]*)\n(?P<text>.*?)^(?P=fence)[ \t]*$",
                    re.MULTILINE | re.DOTALL)
 RUN_LANGUAGES = {"sh", "python", "matlab"}
+IMPORTS_PACKAGE = re.compile(r"^(?:import|from) dem4grm\b", re.MULTILINE)
 
 # What `<!-- small -->` does to a case of the published size, which takes hours: the keys are there, only their values change.
 SMALL = {"length": '"30 mm"', "width": '"30 mm"', "height": '"30 mm"', "velocity": '"50 mm/s"', "displacement": '"4.1 mm"',
@@ -55,6 +57,8 @@ def blocks_of(page_text):
             block.action, block.small = "run", marker == "small"
         if block.action == "run" and language == "matlab" and not shutil.which("octave"):
             block.action, block.argument = "left out", "Octave is not installed"
+        if block.action == "run" and language == "python" and IMPORTS_PACKAGE.search(block.text) and not find_spec("dem4grm"):
+            block.action, block.argument = "left out", "the Python package is not built here (DEM4GRM_BUILD_PYTHON)"
         blocks.append(block)
     return blocks
 
