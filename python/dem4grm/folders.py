@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import subprocess
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
@@ -18,8 +19,9 @@ from numpy.typing import NDArray
 
 from . import _core
 from .cases import Case
-from .errors import MissingFileError
+from .errors import MissingFileError, error_of
 from .micro import MicroAnalysis
+from .program import program
 
 REACH_MM = 0.05  # how far a stored state may be from the displacement that is asked for
 
@@ -300,6 +302,20 @@ class Test:
         frame = pandas.read_csv(io.StringIO(table), float_precision="round_trip")
         frame.attrs["figures"] = json.loads(text)
         return frame
+
+    def report(self, output: str | PathLike | None = None, *, laboratory: Sequence[str | PathLike] = ()) -> Path:
+        """One HTML page that shows the test, like `dem4grm report`; returns its path, by default report.html in the folder.
+
+        laboratory: CSV files with a laboratory's curves, drawn beside ours. Raises MissingFileError for a program that carries no page
+        and for a file that is not there, CaseError for a curve that cannot be read."""
+        path = Path(output) if output is not None else self.path / "report.html"
+        words = [str(program()), "report", str(self.path), "-q", "-o", str(path)]
+        for file in laboratory:
+            words += ["--lab", str(file)]
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise error_of(done.returncode, done.stderr.removeprefix("error: ").strip(), [])
+        return path
 
     def __repr__(self) -> str:
         state = "complete" if self.is_complete else self.status.get("state", "unfinished")

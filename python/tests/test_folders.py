@@ -119,3 +119,16 @@ def test_verification():
     assert "hertz-impact-spheres" in set(dem4grm.verification_cases()["name"])
     with pytest.raises(dem4grm.UsageError, match="hertz-impact-sphere"):
         dem4grm.verify("hertz-impact-sphere")
+
+
+def test_a_report_is_made_or_says_why_not(finished, tmp_path):
+    (tmp_path / "lab.csv").write_text("displacement_mm,shear_stress_kPa\n0,0\n0.5,40\n")
+    (tmp_path / "wrong.csv").write_text("time,force\n0,0\n")
+    with pytest.raises(dem4grm.CaseError, match="no line names the columns"):
+        finished.report(tmp_path / "page.html", laboratory=[tmp_path / "wrong.csv"])
+    try:
+        page = finished.report(tmp_path / "page.html", laboratory=[tmp_path / "lab.csv"])
+    except dem4grm.MissingFileError as missing:
+        assert "carries no page" in str(missing)  # built where there was no node
+        return
+    assert page == tmp_path / "page.html" and page.read_text(encoding="utf-8").endswith("</html>\n")
