@@ -133,7 +133,7 @@ std::string plain_table(const JsonObject& data) {
 }
 
 /// JSON inside a script element: nothing in it may look like the end of the element.
-std::string script_safe(std::string text) {
+std::string script_safe(const std::string& text) {
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {

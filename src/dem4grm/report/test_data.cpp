@@ -134,6 +134,7 @@ JsonObject sieve_of(const std::filesystem::path& folder) {
     if (!column->is_there()) continue;
     const auto per_cent = [](const std::vector<double>& shares) {
       std::vector<double> out;
+      out.reserve(shares.size());
       for (const double share : shares) out.push_back(100.0 * share);
       return short_numbers(out);
     };

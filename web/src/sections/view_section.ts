@@ -14,11 +14,8 @@ export function viewSection(test: Test): HTMLElement {
     if (!entries.some((entry) => entry.isIntersecting)) return;
     observer.disconnect();
     box.replaceChildren();
-    try {
-      createSpecimenView(box, view, test.name);
-    } catch (error) {
-      box.replaceChildren(el("p", { class: "hint" }, `The specimen cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
-    }
+    // Where it cannot be shown, a sentence takes its place.
+    void createSpecimenView(box, view, test.name);
   }, { rootMargin: "300px" });
   observer.observe(box);
   return box;
