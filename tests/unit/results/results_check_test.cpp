@@ -10,6 +10,7 @@
 #include "dem4grm/core/random.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
 #include "dem4grm/results/results_file.hpp"
+#include "support/damages.hpp"
 #include "support/mixture_scene.hpp"
 #include "support/run_program.hpp"
 
@@ -56,8 +57,9 @@ TEST_F(ResultsIntegrity, NoFlippedBitChangesANumberUnnoticed) {
   const std::filesystem::path other = folder_.path() / "other.h5";
   const std::vector<double> expected = numbers_of(path_);
   RandomSequence random(7, RandomStream::test, 0);
+  const int damages = test::number_of_damages(300);
   int found = 0;
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < damages; ++k) {
     std::string changed = bytes_;
     const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(changed.size()));
     changed[at] = static_cast<char>(changed[at] ^ (1 << (k % 8)));
@@ -78,7 +80,17 @@ TEST_F(ResultsIntegrity, NoFlippedBitChangesANumberUnnoticed) {
     }
     EXPECT_TRUE(numbers == expected) << "bit " << k % 8 << " of byte " << at;
   }
-  EXPECT_GT(found, 40) << "half of so small a file is heads and free space";
+  EXPECT_GT(found, damages / 8) << "half of so small a file is heads and free space";
+}
+
+TEST_F(ResultsIntegrity, NoCutFileIsCalledWhole) {
+  const std::filesystem::path other = folder_.path() / "other.h5";
+  RandomSequence random(8, RandomStream::test, 0);
+  for (int k = 0; k < test::number_of_damages(300) / 10; ++k) {
+    test::write_all(other,
+                    bytes_.substr(0, static_cast<std::size_t>(random.uniform() * static_cast<double>(bytes_.size()))));
+    EXPECT_THROW(verdict_of(other, check_results(other)), IoError) << std::filesystem::file_size(other);
+  }
 }
 
 TEST_F(ResultsIntegrity, DamageOfOneStateLeavesTheOthersWhole) {

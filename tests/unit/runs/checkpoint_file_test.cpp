@@ -10,7 +10,9 @@
 #include <limits>
 
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/core/random.hpp"
 #include "dem4grm/version.hpp"
+#include "support/damages.hpp"
 #include "support/run_program.hpp"
 
 namespace dem {
@@ -127,6 +129,27 @@ TEST_F(CheckpointFile, OldOneStaysWhenTheNewOneCannotBeWritten) {
   std::filesystem::create_directories(path_.string() + ".tmp/in/the/way");
   EXPECT_THROW(write_checkpoint(path_, some_state(), {"new", 2.0, {}}), IoError);
   EXPECT_EQ(read_checkpoint(path_).facts.resolved_toml, "old");
+}
+
+TEST_F(CheckpointFile, NoFlippedBitAndNoCutPassesAndTheOneBeforeIsTaken) {
+  const std::filesystem::path older = folder_.path() / "older.h5";
+  for (const double number : {1.0, 2.0}) write_checkpoint(path_, some_state(), {"case", number, {}}, older);
+  const std::string whole = test::read_all(path_);
+  RandomSequence random(11, RandomStream::test, 0);
+  const int flips = test::number_of_damages(500), cuts = flips / 10;
+  for (int k = 0; k < flips + cuts; ++k) {
+    const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(whole.size()));
+    std::string damaged = whole;
+    if (k < flips) {
+      damaged[at] = static_cast<char>(damaged[at] ^ (1 << (k % 8)));
+    } else {
+      damaged.resize(at);
+    }
+    test::write_all(path_, damaged);
+    EXPECT_THROW(read_checkpoint(path_), IoError) << k << ' ' << at;
+    const std::optional<NewestCheckpoint> newest = read_newest_checkpoint(path_, older);
+    ASSERT_TRUE(newest && newest->stored.facts.wall_time == 1.0) << k << ' ' << at;
+  }
 }
 
 TEST_F(CheckpointFile, NewestWholeOneIsTakenAndTheReasonTold) {
