@@ -21,6 +21,7 @@
 #include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/runs/test_writer.hpp"
 #include "dem4grm/version.hpp"
+#include "read_apart.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -72,8 +73,6 @@ int run_program(int argc, char** argv) {
   app.get_formatter()->column_width(26);
   app.footer(
       "Example:\n"
-      "  dem4grm new direct_shear --vrc 25 --stress 60kPa -o my.toml\n"
-      "  dem4grm check my.toml\n"
       "  dem4grm run my.toml -o runs/my");
   dem::add_new(app);
   dem::add_check(app);
@@ -131,6 +130,8 @@ int main(int argc, char** argv) {
   limit_spinning(argv);
   try {
     return run_program(argc, argv);
+  } catch (const dem::ReaderEnded& reader) {
+    return reader.exit_code;
   } catch (const dem::StoppedOnRequest& stop) {
     dem::print_note(stop.what());
     return number(stop.code());

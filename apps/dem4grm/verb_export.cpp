@@ -9,6 +9,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/export/vtk_series.hpp"
+#include "read_apart.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -66,7 +67,7 @@ void add_export(CLI::App& app) {
   CLI::App* verb = app.add_subcommand("export", "stored states as files for ParaView");
   const auto options = std::make_shared<ExportVerbOptions>();
   verb->add_option("DIR", options->path, "output folder, results.h5 or specimen.h5")->required();
-  verb->add_flag("--vtk", options->is_vtk, "series of .vtp files, and view.py that opens them in ParaView");
+  verb->add_flag("--vtk", options->is_vtk, "series of .vtp files and view.py for ParaView");
   verb->add_option("-o,--output", options->folder, "folder to write; default DIR/vtk")
       ->type_name("OUT")
       ->check(not_empty());
@@ -75,7 +76,7 @@ void add_export(CLI::App& app) {
       ->allow_extra_args(false)
       ->delimiter(',');
   verb->footer("Example:\n  dem4grm export runs/quick --vtk --at 0mm,8mm");
-  verb->callback([options] { run_export(*options); });
+  verb->callback([options] { read_apart(options->path, [&] { run_export(*options); }); });
 }
 
 }  // namespace dem

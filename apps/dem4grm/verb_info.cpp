@@ -11,6 +11,7 @@
 #include "dem4grm/results/stored_grains.hpp"
 #include "dem4grm/results/summary.hpp"
 #include "dem4grm/runs/output_folder.hpp"
+#include "read_apart.hpp"
 #include "run_report.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
@@ -106,7 +107,7 @@ void add_info(CLI::App& app) {
   const auto options = std::make_shared<InfoOptions>();
   verb->add_option("PATH", options->path, "output folder, results.h5 or specimen.h5")->required();
   verb->footer("Example:\n  dem4grm info runs/quick");
-  verb->callback([options] { show(*options); });
+  verb->callback([options] { read_apart(options->path, [&] { show(*options); }); });
 }
 
 }  // namespace dem

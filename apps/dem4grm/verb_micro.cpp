@@ -15,6 +15,7 @@
 #include "dem4grm/results/micro_text.hpp"
 #include "dem4grm/results/output_file.hpp"
 #include "dem4grm/results/results_file.hpp"
+#include "read_apart.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -102,7 +103,7 @@ void add_micro(CLI::App& app) {
       ->type_name("FILE.csv");
   verb->add_flag("--json", options->is_json, "as one JSON object on stdout");
   verb->footer("Example:\n  dem4grm micro runs/quick --at 8mm --bootstrap 200");
-  verb->callback([options] { show_micro(*options); });
+  verb->callback([options] { read_apart(options->path, [&] { show_micro(*options); }); });
 }
 
 }  // namespace dem

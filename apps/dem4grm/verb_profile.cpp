@@ -13,6 +13,7 @@
 #include "dem4grm/results/output_file.hpp"
 #include "dem4grm/results/profile_file.hpp"
 #include "dem4grm/results/results_file.hpp"
+#include "read_apart.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -63,7 +64,7 @@ void add_profile(CLI::App& app) {
   verb->add_option("--csv", options->csv, "writes all states and layers there, as profiles.csv")->type_name("FILE");
   verb->add_flag("--json", options->is_json, "all states as one JSON object on stdout");
   verb->footer("Example:\n  dem4grm profile runs/quick --at 8mm");
-  verb->callback([options] { show_profile(*options); });
+  verb->callback([options] { read_apart(options->path, [&] { show_profile(*options); }); });
 }
 
 }  // namespace dem

@@ -14,6 +14,7 @@
 #include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/output_file.hpp"
 #include "dem4grm/runs/live_folder.hpp"
+#include "read_apart.hpp"
 #include "report_writer.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
@@ -100,13 +101,13 @@ void report(const ReportOptions& options) {
 }  // namespace
 
 void add_report(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("report", "tests or a campaign as one page to look at, mail and print");
+  CLI::App* verb = app.add_subcommand("report", "tests or a campaign as one page to look at and mail");
   const auto options = std::make_shared<ReportOptions>();
   verb->add_option("DIR", options->folders, "output folders of tests, or the folder of one campaign")->required();
-  verb->add_option("-o,--output", options->output, "file; default DIR/report.html, of some tests report.html here")
+  verb->add_option("-o,--output", options->output, "file; default DIR/report.html, or ./report.html")
       ->type_name("FILE")
       ->check(not_empty());
-  verb->add_option("--lab", options->laboratory, "a laboratory's curve to draw beside ours (CSV with a header)")
+  verb->add_option("--lab", options->laboratory, "a laboratory's curve (CSV) to draw beside ours")
       ->type_name("FILE")
       ->allow_extra_args(false);
   verb->add_option("--published", options->published, "values to compare with; default those of the article")
@@ -120,12 +121,17 @@ void add_report(CLI::App& app) {
   verb->add_option("--states", options->states, "of the 3D view at most; default 12, 0: no view")
       ->type_name("N")
       ->check(CLI::Range(0, 200).description(""));
-  verb->add_option("--page", options->page, "folder with page.js and page.css in place of the built-in ones")
-      ->type_name("FOLDER");
+  verb->add_option("--page", options->page, "folder with another page.js and page.css")->type_name("FOLDER");
   verb->add_flag("--data", options->is_data, "the data of the page as JSON on stdout, no page");
   verb->add_flag("-q,--quiet", options->is_quiet, "errors only");
   verb->footer("Example:\n  dem4grm report runs/quick --lab measured.csv");
-  verb->callback([options] { report(*options); });
+  verb->callback([options] {
+    if (options->live > 0) {
+      report(*options);  // signals must reach it
+    } else {
+      read_apart(options->folders.front(), [&] { report(*options); });
+    }
+  });
 }
 
 }  // namespace dem

@@ -111,8 +111,7 @@ void add_common(CLI::App& verb, RunOptions& options) {
   verb.add_option("-o,--output", options.folder, "output folder, default runs/<name of the case>")
       ->type_name("DIR")
       ->check(not_empty());
-  verb.add_option("-j,--threads", options.threads,
-                  "threads; by default as many processors as pay off,\nany number gives the same results")
+  verb.add_option("-j,--threads", options.threads, "threads, same results; default: as many as pay off")
       ->type_name("N")
       ->check(CLI::Range(1, k_most_threads))
       ->take_last();

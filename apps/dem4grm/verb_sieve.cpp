@@ -9,6 +9,7 @@
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/results/output_file.hpp"
 #include "dem4grm/results/sieve_report.hpp"
+#include "read_apart.hpp"
 #include "terminal.hpp"
 #include "verbs.hpp"
 
@@ -57,7 +58,7 @@ void add_sieve(CLI::App& app) {
   verb->add_option("--csv", options->csv, "also write the table to this file, for plots")->type_name("FILE");
   verb->add_flag("--json", options->is_json, "as one JSON object on stdout");
   verb->footer("Example:\n  dem4grm sieve runs/quick --sieves 2mm,4mm,5.6mm,8mm --csv sieve.csv");
-  verb->callback([options] { sieve(*options); });
+  verb->callback([options] { read_apart(options->path, [&] { sieve(*options); }); });
 }
 
 }  // namespace dem

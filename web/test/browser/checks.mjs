@@ -173,7 +173,8 @@ export async function keyboard(page) {
     start.focus();
     start.remove();
   });
-  for (let step = 0; step < count + 5; step += 1) await page.keyboard.press("Tab");
+  // The view of the specimen may come into being on the way, with some thirty controls of its own.
+  for (let step = 0; step < count + 60; step += 1) await page.keyboard.press("Tab");
   return page.evaluate((all) => {
     const missed = [...document.querySelectorAll("[data-walk]")].filter((control) => !window.walked.has(control.dataset.walk));
     return { problems: missed.slice(0, 8).map((control) => `not reached: ${control.outerHTML.slice(0, 120)}`), fact: `${all} controls` };
