@@ -96,15 +96,16 @@ def shell(folder, *words):
 def test_hidden_parameters_of_a_grain_are_found_after_a_kill(laboratory):
     """The calibration is killed in the middle of its trials and goes on from the shell; another one, without the kill and with other
     workers, gives the same."""
-    store = laboratory / "killed" / "1-rubber-grain" / "trials.jsonl"
     first = shell(laboratory, "grain.toml", "-o", "killed", "-q")
+    store = laboratory / "killed" / "1-rubber-grain" / "trials.jsonl"
     deadline = time.monotonic() + 120
     while not (store.exists() and len(store.read_bytes().splitlines()) >= 5) and first.poll() is None and time.monotonic() < deadline:
         time.sleep(0.02)
     first.send_signal(signal.SIGKILL)
-    first.communicate()
+    _, errors = first.communicate()
+    assert first.returncode == -signal.SIGKILL, errors
     before = store.read_bytes()
-    assert first.returncode == -signal.SIGKILL and 5 <= before.count(b"\n") < 33
+    assert 5 <= before.count(b"\n") < 33
     store.write_bytes(before + b'{"kind": "trial", "point": 9')  # as if the kill had cut a line short
 
     again = shell(laboratory, "grain.toml", "-o", "killed", "-q")
@@ -192,7 +193,7 @@ def test_intervals_cover_the_truth(tmp_path, monkeypatch, noise):
     widths = []
     for repeat in range(10):
         desk, truth = closed_form_desk(tmp_path, repeat, noise, 6 if noise else 0)
-        found = dem4grm.calibrate(desk, tmp_path / str(repeat), simulator=closed_form).parameters
+        found = dem4grm.calibrate(desk, tmp_path / str(repeat), simulator=closed_form, page=False).parameters
         for key, value in truth.items():
             covered[key] += int(found.interval_low[key] < value < found.interval_high[key])
         widths.append(float(numpy.log(found.interval_high / found.interval_low).mean()))
@@ -212,19 +213,19 @@ def test_stop_and_failures(tmp_path):
         dem4grm.calibrate(desk, tmp_path / "run", simulator=picky, progress=lambda stage, record, done, total: done < 6)
     with pytest.raises(dem4grm.MissingFileError, match="no finished calibration"):
         dem4grm.Calibration(tmp_path / "run")
-    found = dem4grm.calibrate(desk, tmp_path / "run", simulator=picky)
+    found = dem4grm.calibrate(desk, tmp_path / "run", simulator=picky, page=False)
     trials = found.trials()
     assert trials.failure.notna().sum() == found.result["stages"][0]["failed_trials"] >= 1
     assert found.parameters.identified.all()
     other, _ = closed_form_desk(tmp_path, 4, 0.0)
     with pytest.raises(dem4grm.UsageError, match="another desk"):
-        dem4grm.calibrate(other, tmp_path / "run", simulator=picky)
+        dem4grm.calibrate(other, tmp_path / "run", simulator=picky, page=False)
 
     def never(case, seed, series):
         raise dem4grm.PhysicsError("this model never works")
 
     with pytest.raises(dem4grm.MissedError, match="this model never works"):
-        dem4grm.calibrate(desk, tmp_path / "never", simulator=never)
+        dem4grm.calibrate(desk, tmp_path / "never", simulator=never, page=False)
 
 
 def test_stages_hand_on_what_they_found_and_mixtures_are_predicted(tmp_path):
@@ -349,3 +350,13 @@ def test_quantities_are_those_of_finished_tests(finished, laboratory):
     grain = dem4grm.open(laboratory / "hidden")
     assert set(CURVES["grain_compression"]) <= set(grain.compression.columns)
     assert set(NUMBERS["grain_compression"]) <= set(grain.summary)
+
+
+def test_shipped_desks_are_right_and_fit_no_mixture():
+    for path in sorted((CASES / "calibration").glob("*.toml")):
+        desk = dem4grm.Desk.read(path)
+        assert desk.stages and desk.stages[0].name == "rubber grain", path
+    article = dem4grm.Desk.read(CASES / "calibration/article.toml")
+    assert [s.name for s in article.stages] == ["rubber grain", "gravel", "rubber"] and len(article.predictions) == 4
+    assert set(article.stages[1].given) == {"rubber.bond.modulus", "rubber.shear_modulus", "rubber.bond.stiffness_ratio"}
+    assert set(article.stages[2].given) >= {"gravel.friction", "rubber.shear_modulus"} and "rubber.bond.modulus" not in article.stages[2].given

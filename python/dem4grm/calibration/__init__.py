@@ -20,7 +20,7 @@ __all__ = ["Calibration", "Desk", "calibrate"]
 
 def calibrate(desk: Desk | str | PathLike, folder: str | PathLike | None = None, *, workers: int = 1, threads: int = 1,
               progress: Callable[[str, dict[str, Any], int, int], bool | None] | None = None, stop: StopFlag | None = None,
-              simulator: Simulator | None = None) -> Calibration:
+              simulator: Simulator | None = None, page: bool = True) -> Calibration:
     """Carries out a calibration, or goes on with one that was stopped or killed; no trial is run twice, and the result is the same.
 
     desk       a Desk, or the path of a desk file (docs/how-to/calibrate.md)
@@ -31,6 +31,8 @@ def calibrate(desk: Desk | str | PathLike, folder: str | PathLike | None = None,
     stop       asked as stop.is_set(): a threading.Event that another thread may set
     simulator  another model in place of DEM4GRM: called as simulator(case, seed, series) from `workers` threads, it returns for each
                series (name, quantity, abscissa, x) an array of values at series.x, or of one value for a number
+
+    page       writes the figures and calibration.html as well
 
     Raises CaseError (every problem of the desk at once), MissingFileError, UsageError (the folder holds another desk's trials),
     FolderInUseError, Stopped, IoError; MissedError when too few trials succeed.
@@ -44,4 +46,4 @@ def calibrate(desk: Desk | str | PathLike, folder: str | PathLike | None = None,
     read = desk if isinstance(desk, Desk) else Desk.read(desk)
     place = Path(folder) if folder is not None else Path("runs") / read.path.name
     tell = progress if progress is not None else lambda *_: None
-    return DeskRun(read, place, max(1, workers), max(1, threads), simulator, StopOf(stop), tell).run()
+    return DeskRun(read, place, max(1, workers), max(1, threads), simulator, StopOf(stop), tell, page).run()

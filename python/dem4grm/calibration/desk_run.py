@@ -66,7 +66,8 @@ class DeskRun:
     """Carries a desk out. `tell` gets (stage, record, trials done, trials in all) after each trial."""
 
     def __init__(self, desk: Desk, folder: Path, workers: int, threads: int, simulator: Simulator | None, stop: StopOf,
-                 tell: Callable[[str, dict[str, Any], int, int], bool | None]):
+                 tell: Callable[[str, dict[str, Any], int, int], bool | None], with_page: bool = True):
+        self._with_page = with_page
         self._desk, self._folder, self._workers, self._threads = desk, folder, workers, threads
         self._simulator, self._stop, self._tell = simulator, stop, tell
 
@@ -94,14 +95,16 @@ class DeskRun:
             trial_table(fit).to_csv(folder / "trials.csv", index=False)
             columns = {p.key: p.value(fit.points[:, k]) for k, p in enumerate(stage.parameters)}
             pandas.DataFrame(columns).to_csv(folder / "samples.csv", index=False)
-            draw_stage(fit, folder)
+            if self._with_page:
+                draw_stage(fit, folder)
             stages.append({"folder": folder.name, **stage_result(fit)})
         predictions = [self._predict(p, found) for p in self._desk.predictions]
         result = {"name": self._desk.name, "digest": self._desk.digest, "stages": stages, "predictions": predictions}
         temporary = self._folder / "result.json.part"
         temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
         temporary.replace(self._folder / "result.json")
-        write_page(self._folder, result, fits)
+        if self._with_page:
+            write_page(self._folder, result, fits)
         return Calibration(self._folder)
 
     def _fit(self, stage: Stage, given: dict[str, Any], folder: Path) -> Fit:
