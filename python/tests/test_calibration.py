@@ -11,9 +11,11 @@ from pathlib import Path
 
 import numpy
 import pytest
+import tiny
 
 import dem4grm
-from dem4grm.calibration.data import CURVES, NUMBERS, errors_of, read_curve, thinned
+from dem4grm.calibration.data import CURVES, NUMBERS, Series, errors_of, read_curve, thinned
+from dem4grm.calibration.trials import StopOf, run_program
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 COARSE = {"compression.records": 20, "compression.strain": 0.2, "compression.plate_velocity": "40 mm/s"}
@@ -347,6 +349,12 @@ def test_files_of_laboratories(tmp_path):
 
 def test_quantities_are_those_of_finished_tests(finished, laboratory):
     assert set(CURVES["direct_shear"]) <= set(finished.shear.columns) and set(NUMBERS["direct_shear"]) <= set(finished.summary)
+    asked = [Series("tau", "shear_stress_kPa", "displacement_mm", numpy.array([0.0, 0.5]), *numpy.ones((3, 2))),
+             Series("e", "void_ratio_before_shear", "", numpy.empty(0), *numpy.ones((3, 1)))]
+    curves, state_hash = run_program(tiny.case(), finished.path, asked, 1, StopOf(), keep=True)
+    near = finished.shear.iloc[(finished.shear.displacement_mm - 0.5).abs().argmin()].shear_stress_kPa
+    assert abs(curves[0][1] / near - 1.0) < 0.05 and state_hash == finished.state_hash
+    assert curves[1].tolist() == [finished.summary["void_ratio_before_shear"]]
     grain = dem4grm.open(laboratory / "hidden")
     assert set(CURVES["grain_compression"]) <= set(grain.compression.columns)
     assert set(NUMBERS["grain_compression"]) <= set(grain.summary)
@@ -359,4 +367,5 @@ def test_shipped_desks_are_right_and_fit_no_mixture():
     article = dem4grm.Desk.read(CASES / "calibration/article.toml")
     assert [s.name for s in article.stages] == ["rubber grain", "gravel", "rubber"] and len(article.predictions) == 4
     assert set(article.stages[1].given) == {"rubber.bond.modulus", "rubber.shear_modulus", "rubber.bond.stiffness_ratio"}
-    assert set(article.stages[2].given) >= {"gravel.friction", "rubber.shear_modulus"} and "rubber.bond.modulus" not in article.stages[2].given
+    given = article.stages[2].given
+    assert set(given) >= {"gravel.friction", "rubber.shear_modulus"} and "rubber.bond.modulus" not in given

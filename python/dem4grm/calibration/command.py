@@ -51,7 +51,8 @@ def _print_result(found: Calibration) -> None:
         print(f"{stage['name']}: {stage['runs']} runs, chi-squared over values {stage['misfit_per_value']:.2f}")
         for p in stage["parameters"]:
             verdict = "not identified: " + p["why_not"] if not p["identified"] else f"at its {p['at_bound']} bound" if p["at_bound"] else ""
-            print(f"  {p['key']:<28} {p['best']:10.4g}  95 % [{p['interval_low']:.4g}, {p['interval_high']:.4g}] {p['unit']}  {verdict}".rstrip())
+            interval = f"95 % [{p['interval_low']:.4g}, {p['interval_high']:.4g}]"
+            print(f"  {p['key']:<28} {p['best']:10.4g}  {interval} {p['unit']}  {verdict}".rstrip())
     print(f"page  {found.path / 'calibration.html'}")
 
 

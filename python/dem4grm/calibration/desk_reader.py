@@ -57,7 +57,8 @@ class DeskReader:
         found = section.get(key, [])
         if isinstance(found, list) and all(isinstance(item, dict) for item in found):
             return found
-        self._problems.add((*place, key), f"{key} is a list of sections: write [[{'.'.join([str(p) for p in place if isinstance(p, str)] + [key])}]]")
+        name = ".".join([part for part in place if isinstance(part, str)] + [key])
+        self._problems.add((*place, key), f"{key} is a list of sections: write [[{name}]]")
         return []
 
     def _whole(self, place: Place, section: dict, key: str, default: int, low: int, high: int) -> int:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from .desk import Stage
 from .posterior import Estimate, estimates, log_prior, mode, sample
@@ -107,10 +108,10 @@ class _Fitting:
         self._surrogate = Surrogate(good, curves, stage.y, stage.covariance(), self._replicates, stage.seeds, self._surrogate, is_final)
         if not is_final:
             return self._surrogate
-        # A model that misses the data by more than their errors must not be sure of its parameters: the errors grow until it fits.
-        best = self._surrogate.misfit(self._surrogate.predict(good)[0]).min()
+        # A model that misses the data by more than their errors explain must not be sure of its parameters: the errors grow until it fits.
+        best = float(self._surrogate.misfit(self._surrogate.predict(good)[0]).min())
         degrees = max(1, len(stage.y) - len(stage.parameters))
-        self._surrogate.inflation = max(1.0, float(best) / degrees)
+        self._surrogate.inflation = best / degrees if best > chi2.ppf(0.95, degrees) else 1.0
         return self._surrogate
 
     def fit(self) -> Fit:

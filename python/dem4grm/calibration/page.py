@@ -46,7 +46,7 @@ def _correlations(stage: dict[str, Any]) -> str:
 
 def _remarks(stage: dict[str, Any]) -> str:
     remarks = []
-    if stage["inflation"] > 1.5:
+    if stage["inflation"] > 1.0:
         remarks.append(f"The model misses the data by more than their errors (the best chi-squared is {stage['inflation']:.1f} per degree of "
                        "freedom): the intervals were widened as if the errors were larger by the root of that. Look at the residuals.")
     if stage["surrogate_error"] > 1.0:
@@ -85,8 +85,9 @@ def _predictions(result: dict[str, Any]) -> str:
 def write_page(folder: Path, result: dict[str, Any], fits: list[Fit]) -> None:
     name = escape(result["name"])
     runs = sum(fit.runs for fit in fits)
+    word = "stage" if len(fits) == 1 else "stages"
     body = "".join(_stage(folder, stage) for stage in result["stages"])
     text = (f"<!doctype html><html lang=en><meta charset=utf-8><meta name=viewport content=\"width=device-width\"><title>{name}: calibration"
-            f"</title><style>{STYLE}</style><h1>{name}: calibration</h1><p>{runs} runs in {len(fits)} stages. Intervals hold measurement "
+            f"</title><style>{STYLE}</style><h1>{name}: calibration</h1><p>{runs} runs in {len(fits)} {word}. Intervals hold measurement "
             f"error, differences between seeds, and what the surrogate does not know.</p>{body}{_predictions(result)}</html>\n")
     (folder / "calibration.html").write_text(text, encoding="utf-8")

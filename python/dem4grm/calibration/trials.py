@@ -200,4 +200,5 @@ def require_successes(records: Sequence[dict[str, Any]], least: int, stage: Stag
     good = [r for r in records if "failure" not in r]
     if len(good) < least:
         cause = next((r["failure"] for r in records if "failure" in r), "")
-        raise MissedError(f"stage \"{stage.name}\": {len(good)} of {len(records)} trials succeeded, {least} are needed; the first failure: {cause}")
+        raise MissedError(f"stage \"{stage.name}\": {len(good)} of {len(records)} trials succeeded, {least} are needed; the first "
+                          f"failure: {cause}")
