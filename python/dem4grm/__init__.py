@@ -21,6 +21,7 @@ if "OMP_WAIT_POLICY" not in _os.environ:
 
 from . import _core, micro  # noqa: E402
 from ._core import Progress  # noqa: E402
+from .calibration import Calibration, Desk, calibrate  # noqa: E402
 from .campaigns import Campaign, Study  # noqa: E402
 from .cases import Case  # noqa: E402
 from .errors import (  # noqa: E402
@@ -39,7 +40,7 @@ __version__ = _core.version
 __commit__ = _core.commit
 
 __all__ = [
-    "Campaign", "Case", "CaseError", "Error", "FolderInUseError", "InternalError", "IoError", "Material", "MissedError",
-    "MissingFileError", "OutOfMemoryError", "PhysicsError", "Progress", "Simulation", "State", "Stopped", "Study", "Test",
-    "UsageError", "micro", "open", "print_progress", "program", "run", "verification_cases", "verify",
+    "Calibration", "Campaign", "Case", "CaseError", "Desk", "Error", "FolderInUseError", "InternalError", "IoError", "Material",
+    "MissedError", "MissingFileError", "OutOfMemoryError", "PhysicsError", "Progress", "Simulation", "State", "Stopped", "Study", "Test",
+    "UsageError", "calibrate", "micro", "open", "print_progress", "program", "run", "verification_cases", "verify",
 ]

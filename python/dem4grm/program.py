@@ -21,6 +21,10 @@ def program() -> Path:
 
 
 def main() -> None:
-    """Becomes the program: what the command `dem4grm` of an installed package calls."""
+    """The command `dem4grm` of an installed package, and `python3 -m dem4grm`: `calibrate` is carried out here, since it needs Python;
+    for everything else this process becomes the program."""
+    if sys.argv[1:2] == ["calibrate"]:
+        from .calibration.command import main as calibrate  # what it imports would slow every other command down
+        sys.exit(calibrate(sys.argv[2:]))
     path = program()
     os.execv(path, [str(path), *sys.argv[1:]])
