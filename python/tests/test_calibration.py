@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -123,6 +124,14 @@ def test_hidden_parameters_of_a_grain_are_found_after_a_kill(laboratory):
     found = dem4grm.calibrate(laboratory / "grain.toml", laboratory / "whole", workers=2, progress=lambda *now: told.append(now[2:]))
     assert len(told) == 41 and told[-1] == (41, 41)
     assert (laboratory / "whole/result.json").read_bytes() == (laboratory / "killed/result.json").read_bytes()
+    lines = (laboratory / "whole/1-rubber-grain/trials.jsonl").read_bytes().splitlines(keepends=True)
+    (laboratory / "late").mkdir()
+    shutil.copytree(laboratory / "whole/1-rubber-grain", laboratory / "late/1-rubber-grain")
+    (laboratory / "late/1-rubber-grain/trials.jsonl").write_bytes(b"".join(lines[:27]))  # killed in the second batch of proposals
+    (laboratory / "late/1-rubber-grain/proposals.json").write_text(
+        json.dumps(json.loads((laboratory / "whole/1-rubber-grain/proposals.json").read_text(encoding="utf-8"))[:2]), encoding="utf-8")
+    dem4grm.calibrate(laboratory / "grain.toml", laboratory / "late", page=False)
+    assert (laboratory / "late/result.json").read_bytes() == (laboratory / "whole/result.json").read_bytes()
     assert found.trials().equals(dem4grm.Calibration(laboratory / "killed").trials())
     check_recovery(found)
     check_page(found.path / "calibration.html")
