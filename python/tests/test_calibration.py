@@ -3,6 +3,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -107,7 +108,7 @@ def test_hidden_parameters_of_a_grain_are_found_after_a_kill(laboratory):
     _, errors = first.communicate()
     assert first.returncode == -signal.SIGKILL, errors
     before = store.read_bytes()
-    assert 5 <= before.count(b"\n") < 33
+    assert 5 <= before.count(b"\n") < 41
     store.write_bytes(before + b'{"kind": "trial", "point": 9')  # as if the kill had cut a line short
 
     again = shell(laboratory, "grain.toml", "-o", "killed", "-q")
@@ -116,13 +117,21 @@ def test_hidden_parameters_of_a_grain_are_found_after_a_kill(laboratory):
     assert re.search(r"walls.shear_modulus .* not identified", printed)
     assert store.read_bytes().startswith(before), "finished trials are kept as they are"
     records = [json.loads(line) for line in store.read_text(encoding="utf-8").splitlines()]
-    assert len({(r["point"], r["number"]) for r in records}) == len(records) == 33, "no trial is run twice"
+    assert len({(r["point"], r["number"]) for r in records}) == len(records) == 41, "no trial is run twice"
     assert all(len(r["state_hashes"]) == 1 for r in records)
 
     told = []
     found = dem4grm.calibrate(laboratory / "grain.toml", laboratory / "whole", workers=2, progress=lambda *now: told.append(now[2:]))
-    assert len(told) == 33 and told[-1] == (33, 33)
+    assert len(told) == 41 and told[-1] == (41, 41)
     assert (laboratory / "whole/result.json").read_bytes() == (laboratory / "killed/result.json").read_bytes()
+    lines = (laboratory / "whole/1-rubber-grain/trials.jsonl").read_bytes().splitlines(keepends=True)
+    (laboratory / "late").mkdir()
+    shutil.copytree(laboratory / "whole/1-rubber-grain", laboratory / "late/1-rubber-grain")
+    (laboratory / "late/1-rubber-grain/trials.jsonl").write_bytes(b"".join(lines[:27]))  # killed in the second batch of proposals
+    (laboratory / "late/1-rubber-grain/proposals.json").write_text(
+        json.dumps(json.loads((laboratory / "whole/1-rubber-grain/proposals.json").read_text(encoding="utf-8"))[:2]), encoding="utf-8")
+    dem4grm.calibrate(laboratory / "grain.toml", laboratory / "late", page=False)
+    assert (laboratory / "late/result.json").read_bytes() == (laboratory / "whole/result.json").read_bytes()
     assert found.trials().equals(dem4grm.Calibration(laboratory / "killed").trials())
     check_recovery(found)
     check_page(found.path / "calibration.html")
@@ -140,7 +149,7 @@ def check_recovery(found):
     assert set(found.best) == set(table.index) and found.best["rubber.bond.modulus"].endswith(" MPa")
     dem4grm.Case.read(CASES / "grain_compression.toml", found.best)
     stage = found.result["stages"][0]
-    assert stage["misfit_per_value"] < 2.0 and stage["surrogate_error"] < 0.5 and stage["runs"] == 33
+    assert stage["misfit_per_value"] < 2.0 and stage["surrogate_error"] < 0.5 and stage["runs"] == 41
     assert abs(found.correlations().loc["rubber.bond.modulus", "rubber.bond.stiffness_ratio"]) > 0.3
     assert found.samples()["rubber.bond.modulus"].between(8.0, 60.0).all()
 

@@ -38,7 +38,7 @@ def _parser() -> argparse.ArgumentParser:
 
 def _print_plan(desk: Desk) -> None:
     for stage in desk.stages:
-        trials = stage.trials * stage.seeds + stage.replicates + stage.seeds * (2 if stage.full is not None else 1)
+        trials = stage.trials * stage.seeds + stage.replicates + stage.seeds * (2 if stage.full is not None else 1) + 2 * len(stage.parameters)
         keys = ", ".join(p.key for p in stage.parameters)
         print(f"{stage.name}: {len(stage.parameters)} parameters ({keys}), {len(stage.y)} values in {len(stage.series)} series, "
               f"{trials * len(stage.experiments)} runs")

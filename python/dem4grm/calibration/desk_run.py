@@ -109,7 +109,7 @@ class DeskRun:
 
     def _fit(self, stage: Stage, given: dict[str, Any], folder: Path) -> Fit:
         store = TrialStore(folder / "trials.jsonl")
-        total = stage.trials * stage.seeds + stage.replicates + stage.seeds * (2 if stage.full is not None else 1)
+        total = stage.trials * stage.seeds + stage.replicates + stage.seeds * (2 if stage.full is not None else 1) + 2 * len(stage.parameters)
 
         def tell(record: dict[str, Any]) -> bool | None:
             return self._tell(stage.name, record, len(store.records), total)

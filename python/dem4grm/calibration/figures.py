@@ -137,7 +137,7 @@ def draw_search(fit: Fit, path: Path) -> None:
     figure = _figure(6.0, 2.8)
     axis = figure.subplots()
     done = [r for r in fit.records if "misfit" in r]
-    for role, color in (("design", GREY), ("search", BLUE), ("replicate", "#7048e8"), ("best", ORANGE), ("full", "black")):
+    for role, color in (("design", GREY), ("search", BLUE), ("replicate", "#7048e8"), ("best", ORANGE), ("full", "black"), ("sweep", "#2b8a3e")):
         mine = [r for r in done if r["role"] == role]
         if mine:
             axis.semilogy([r["point"] for r in mine], [r["misfit"] / len(fit.stage.y) for r in mine], "o", ms=3.5, color=color, label=role)

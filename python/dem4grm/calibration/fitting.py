@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.stats import chi2
 
 from .desk import Stage
-from .posterior import Estimate, estimates, log_prior, mode, sample
+from .posterior import FLAT, Estimate, estimates, log_prior, mode, sample
 from .search import design, proposals
 from .surrogate import Surrogate
 from .trials import Bench, Job, TrialStore, require_successes, values_of
@@ -105,7 +105,7 @@ class _Fitting:
     def _train(self, is_final: bool = False) -> Surrogate:
         stage = self._stage
         good, curves, _ = self._means()
-        self._surrogate = Surrogate(good, curves, stage.y, stage.covariance(), self._replicates, stage.seeds, self._surrogate, is_final)
+        self._surrogate = Surrogate(good, curves, stage.y, stage.covariance(), self._replicates, stage.seeds, is_final)
         if not is_final:
             return self._surrogate
         # A model that misses the data by more than their errors explain must not be sure of its parameters: the errors grow until it fits.
@@ -143,6 +143,23 @@ class _Fitting:
         require_successes(records, 1, self._stage)
         return numpy.mean([values_of(record) for record in records if "failure" not in record], axis=0)
 
+    def _without_influence(self, best: NDArray, best_curves: NDArray, covariance: NDArray) -> list[bool]:
+        """Runs the best values with each parameter at both of its ends: a surrogate may see a trend where there is none, a run does not."""
+        stage = self._stage
+        jobs = []
+        for k in range(len(stage.parameters)):
+            for end in (0.0, 1.0):
+                position = best.copy()
+                position[k] = end
+                jobs.append(Job(stage.trials + 2 + len(jobs), 0, "sweep", tuple(map(float, position))))
+        residuals = [values_of(r) - stage.y if "failure" not in r else None for r in self._bench.do(jobs)]
+
+        def chi(residual: NDArray) -> float:
+            return float(residual @ numpy.linalg.solve(covariance, residual))
+
+        changes = [numpy.inf if r is None else abs(chi(r) - chi(best_curves - stage.y)) / 2.0 for r in residuals]
+        return [max(changes[2 * k:2 * k + 2]) < FLAT for k in range(len(stage.parameters))]
+
     def _result(self, surrogate: Surrogate, density, points: NDArray, best: NDArray, best_curves: NDArray,
                 full_curves: NDArray | None) -> Fit:
         stage = self._stage
@@ -155,7 +172,12 @@ class _Fitting:
         band = numpy.quantile(surrogate.curve(some, stage.y), [0.025, 0.975], axis=0)
         off = (surrogate.curve(best[None], stage.y)[0] - best_curves) / scale
         correlations = numpy.atleast_2d(numpy.corrcoef(points.T))
-        return Fit(stage, self._given, estimates(stage, density, points, best), best, correlations, points, self._records, best_curves,
+        found = estimates(stage, density, points, best)
+        for estimate, is_idle in zip(found, self._without_influence(best, best_curves, covariance)):
+            if is_idle:
+                estimate.is_identified, estimate.at_bound = False, ""
+                estimate.why_not = "runs with it at either end of its range are as near to the data"
+        return Fit(stage, self._given, found, best, correlations, points, self._records, best_curves,
                    full_curves, band, float(residual @ numpy.linalg.solve(covariance, residual)) / len(residual), surrogate.inflation,
                    noise, float(numpy.sqrt((off**2).mean())), 0)
 

@@ -31,11 +31,12 @@ class Surrogate:
     y, covariance   data [m] and the covariance of their errors [m, m]
     replicates   [r, m] curves of one point with different seeds, or none
     seeds        how many seeds a curve is the mean of
-    before       an earlier surrogate of the same stage, whose kernels are a good start
+
+    It depends on nothing else, above all not on earlier surrogates: a calibration that goes on after a kill has none.
     """
 
     def __init__(self, positions: NDArray, curves: NDArray, y: NDArray, covariance: NDArray, replicates: NDArray | None = None,
-                 seeds: int = 1, before: Surrogate | None = None, is_final: bool = False):
+                 seeds: int = 1, is_final: bool = False):
         self.positions, self.seeds = positions, seeds
         self._scale = 1.0 / numpy.sqrt(numpy.diag(covariance))
         residuals = (curves - y) * self._scale
@@ -50,17 +51,14 @@ class Surrogate:
         scaled = covariance * numpy.outer(self._scale, self._scale) + numpy.diag((unexplained**2).mean(axis=0))
         self._measured = numpy.linalg.inv(self.directions.T @ numpy.linalg.solve(scaled, self.directions))
         self.inflation = 1.0
-        self._fit(before, is_final)
+        self._fit(is_final)
         self.noise = self._noise_of_a_specimen(replicates)
 
-    def _fit(self, before: Surrogate | None, is_final: bool) -> None:
+    def _fit(self, is_final: bool) -> None:
         d = self.positions.shape[1]
         self._processes: list[GaussianProcessRegressor] = []
-        for k, scores in enumerate(self.scores.T):
+        for scores in self.scores.T:
             kernel = ConstantKernel(1.0, (1e-2, 1e4)) * Matern([1.0] * d, (0.05, 50.0), nu=2.5) + WhiteKernel(1e-4, (1e-9, 1.0))
-            # Scores are ordered alike from one round to the next, so are the kernels; a poor start only costs time.
-            if before is not None and k < len(before._processes):
-                kernel = before._processes[k].kernel_
             process = GaussianProcessRegressor(kernel, normalize_y=True, alpha=1e-10, random_state=0,
                                                n_restarts_optimizer=1 if is_final and d < 4 else 0)
             with warnings.catch_warnings():
