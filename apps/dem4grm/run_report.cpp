@@ -5,7 +5,10 @@
 
 #include <cmath>
 #include <limits>
+#include <system_error>
 #include <variant>
+
+#include "dem4grm/report/report_page.hpp"
 
 namespace dem {
 namespace {
@@ -72,6 +75,13 @@ std::string compression_lines(const JsonObject& s) {
   return text;
 }
 
+/// Where the page lies that shows all of it.
+std::string report_line(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  const std::filesystem::path page = folder / k_report_file;
+  return std::filesystem::exists(page, ignored) ? line("report", fmt::format("{}, for a browser", page.string())) : "";
+}
+
 }  // namespace
 
 std::string summary_lines(const JsonObject& summary) {
@@ -115,6 +125,7 @@ std::string run_report(const JsonObject& summary, const std::filesystem::path& f
                          : fmt::format("{} is done\n", text_in(summary, "case"));
   text += summary_lines(summary);
   text += line("written to", folder.string());
+  text += report_line(folder);
   text += line("next", fmt::format("dem4grm info {}", folder.string()));
   return text;
 }
@@ -136,6 +147,7 @@ std::string specimen_report(const JsonObject& summary, const std::filesystem::pa
   text += line("state hash", text_in(summary, "state_hash"));
   text += line("wall time",
                fmt::format("{:.1f} s, {:.0f} steps, {:.0f} thread(s)", n("wall_time_s"), n("steps"), n("threads")));
+  text += report_line(folder);
   text += line("next", fmt::format("dem4grm run {} -o {}", case_path, folder.string()));
   return text;
 }
