@@ -108,7 +108,7 @@ void write_state(const ShownState& state, const StoredFrame& frame, std::span<co
 
 void write_states(const std::vector<StoredFrame>& all, std::span<const StoredFrame> chosen,
                   std::span<const SeriesKind> series, VtkExport& out) {
-  const hdf5::Handle file = hdf5::open_file(out.source, hdf5::Access::read);
+  const hdf5::Handle file = open_results(out.source);
   const GrainDensities densities = read_densities(file);
   const StoredState first = read_stored_state(file, all.front().name);
   for (const StoredFrame& frame : chosen) {

@@ -293,7 +293,7 @@ std::vector<std::size_t> chosen_states(std::size_t available, std::size_t most) 
 }
 
 JsonObject view_of(const std::filesystem::path& results, std::size_t most) {
-  const hdf5::Handle file = hdf5::open_file(results, hdf5::Access::read);
+  const hdf5::Handle file = open_results(results);
   const std::string resolved = hdf5::read_text(hdf5::open_group(file, "meta"), "resolved_toml");
   const DirectShearCase test = std::get<DirectShearCase>(parse_case(resolved, "resolved.toml").test);
   std::vector<ViewedState> states;

@@ -183,8 +183,8 @@ StoredMicroState read_micro_state(const std::filesystem::path& results, std::opt
         fmt::format("{}: is of a {} test; micro-mechanics needs a direct shear test", results.string(), outline.test));
   }
   const StoredFrame& frame = choose_frame(results, outline.frames, displacement);
+  const Handle file = open_results(results);
   try {
-    const Handle file = hdf5::open_file(results, hdf5::Access::read);
     const Handle group = hdf5::open_group(hdf5::open_group(file, "frames"), frame.name);
     return {frame.name, frame.displacement, frame.state_hash, read_micro_state(group)};
   } catch (const IoError& e) {

@@ -7,6 +7,8 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <fstream>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -96,6 +98,29 @@ bool overwrite_file(const std::filesystem::path& path, std::string text) {
   if (present > static_cast<off_t>(text.size())) text.append(static_cast<std::size_t>(present) - text.size(), ' ');
   const bool is_good = ::lseek(descriptor, 0, SEEK_SET) == 0 && write_all(descriptor, text);
   return ::close(descriptor) == 0 && is_good;
+}
+
+void copy_to_new_file(const std::filesystem::path& from, const std::filesystem::path& to) {
+  constexpr std::size_t k_piece = std::size_t{1} << 20U;
+  std::ifstream source(from, std::ios::binary);
+  if (!source) throw_io_error(from, "cannot be read");
+  const int copy = ::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, k_file_mode);
+  if (copy < 0) throw_io_error(to, "cannot be written");
+  std::string piece(k_piece, '\0');
+  bool is_good = true;
+  while (is_good && source) {
+    source.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    is_good = write_all(copy, std::string_view(piece).substr(0, static_cast<std::size_t>(source.gcount())));
+  }
+  int reason = source.bad() ? EIO : errno;
+  if (::close(copy) != 0 && is_good) {
+    is_good = false;
+    reason = errno;
+  }
+  if (is_good && !source.bad()) return;
+  ::unlink(to.c_str());
+  errno = reason;
+  throw_io_error(to, "cannot be written");
 }
 
 void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path,

@@ -19,6 +19,9 @@ void replace_file(const std::filesystem::path& path, std::string_view text);
 /// but none for a new file. A reader may see half of it. False when it cannot be written.
 bool overwrite_file(const std::filesystem::path& path, std::string text);
 
+/// Copies a file to a new one. Throws IoError, also when there is one of that name, and leaves no half of a copy.
+void copy_to_new_file(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// Brings a draft that was written beside `path` to the disk and gives it that name, then the folder to the disk. With
 /// `older` the file that has the name now gets that one first. Throws IoError, leaves the old file and removes the draft.
 void publish_file(const std::filesystem::path& draft, const std::filesystem::path& path,

@@ -67,7 +67,7 @@ std::vector<Quaternion> read_orientations(const hdf5::Handle& frame, const Rubbe
 
 ProfileState read_state_of(const std::filesystem::path& results, const StoredFrame& stored) {
   StoredMicroState micro = read_micro_state(results, stored.displacement);
-  const hdf5::Handle file = hdf5::open_file(results, hdf5::Access::read);
+  const hdf5::Handle file = open_results(results);
   const hdf5::Handle frame = hdf5::open_group(hdf5::open_group(file, "frames"), stored.name);
   ProfileState out{stored.displacement, read_packing(frame), std::move(micro.state.network), {}};
   out.orientation = read_orientations(frame, micro.state.rubber);

@@ -7,6 +7,7 @@
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/results/sealed_file.hpp"
 
 namespace dem {
 namespace {
@@ -39,6 +40,23 @@ void check_group(const hdf5::Handle& group, const std::string& path, ResultsChec
   }
 }
 
+SealState seal_state_of(const std::filesystem::path& path) {
+  if (!has_seal(path)) return SealState::none;
+  try {
+    check_seal(path);
+    return SealState::fits;
+  } catch (const IoError&) {
+    return SealState::broken;
+  }
+}
+
+std::string named_parts(const std::vector<std::string>& damaged) {
+  std::string parts;
+  for (std::size_t k = 0; k < std::min(k_named, damaged.size()); ++k) parts += (k > 0 ? ", " : "") + damaged[k];
+  if (damaged.size() > k_named) parts += fmt::format(" and {} more", damaged.size() - k_named);
+  return parts;
+}
+
 }  // namespace
 
 ResultsCheck check_results(const std::filesystem::path& path) {
@@ -46,6 +64,7 @@ ResultsCheck check_results(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path, ignored)) throw MissingFileError(fmt::format("{}: no such file", path.string()));
   const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
   ResultsCheck out;
+  out.seal = seal_state_of(path);
   check_group(file, "", out);
   try {
     for (const std::string& state : hdf5::names_in(hdf5::open_group(file, "frames"))) {
@@ -61,20 +80,23 @@ ResultsCheck check_results(const std::filesystem::path& path) {
 }
 
 std::string verdict_of(const std::filesystem::path& path, const ResultsCheck& check) {
-  if (check.damaged.empty()) {
-    if (check.without_checksum == 0) return fmt::format("whole: {} datasets fit their checksums", check.datasets);
-    return fmt::format("{} datasets can be read; {} have no checksum, so damage within them would not be noticed",
-                       check.datasets, check.without_checksum);
+  if (!check.damaged.empty()) {
+    throw IoError(fmt::format("{}: is damaged: {}; {}", path.string(), named_parts(check.damaged),
+                              check.whole_states.empty()
+                                  ? "no state is whole"
+                                  : fmt::format("whole states: {}", fmt::join(check.whole_states, ", "))));
   }
-  std::string parts;
-  for (std::size_t k = 0; k < std::min(k_named, check.damaged.size()); ++k) {
-    parts += (k > 0 ? ", " : "") + check.damaged[k];
+  if (check.seal == SealState::broken) {
+    throw IoError(fmt::format(
+        "{}: does not fit its seal: a name, an attribute or the description of a dataset is damaged, or another "
+        "program has written to the file; its {} datasets fit their checksums",
+        path.string(), check.datasets));
   }
-  if (check.damaged.size() > k_named) parts += fmt::format(" and {} more", check.damaged.size() - k_named);
-  throw IoError(fmt::format("{}: is damaged: {}; {}", path.string(), parts,
-                            check.whole_states.empty()
-                                ? "no state is whole"
-                                : fmt::format("whole states: {}", fmt::join(check.whole_states, ", "))));
+  if (check.seal == SealState::fits)
+    return fmt::format("whole: every byte fits the seal ({} datasets)", check.datasets);
+  return fmt::format(
+      "no seal: damage to names and descriptions would not be noticed; {} datasets can be read, {} without a checksum",
+      check.datasets, check.without_checksum);
 }
 
 }  // namespace dem

@@ -11,6 +11,7 @@
 #include "dem4grm/results/frame_writer.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
 #include "dem4grm/results/output_file.hpp"
+#include "dem4grm/results/sealed_file.hpp"
 #include "dem4grm/version.hpp"
 
 namespace dem {
@@ -18,18 +19,49 @@ namespace {
 
 constexpr std::int64_t k_format = 1;  // raised when a reader of older files would be misled
 
-/// Runs an addition between opening and closing; errors name the file.
-template <class Addition>
-void add_to_file(const std::filesystem::path& path, const Addition& addition) {
+/// Runs work; errors that do not name the file are made to.
+template <class Work>
+void naming_file(const std::filesystem::path& path, const Work& work) {
   try {
-    hdf5::Handle file = hdf5::open_file(path, hdf5::Access::write);
-    addition(file);
-    file.close("the file cannot be closed");
+    work();
   } catch (const IoError& e) {
     const std::string shown = path.string();
     if (std::string_view(e.what()).starts_with(shown)) throw;
     throw IoError(fmt::format("{}: {}", shown, e.what()));
   }
+}
+
+/// Lets `make` write a draft beside the file, seals it, and gives it the name of the file; removes it when that fails.
+template <class Make>
+void replace_sealed(const std::filesystem::path& path, const Make& make) {
+  std::filesystem::path draft = path;
+  draft += ".tmp";
+  std::error_code ignored;
+  std::filesystem::remove(draft, ignored);  // a link that somebody put there would be followed
+  try {
+    naming_file(path, [&] {
+      make(draft);
+      seal_file(draft);
+    });
+  } catch (const IoError&) {
+    std::filesystem::remove(draft, ignored);
+    throw;
+  }
+  publish_file(draft, path);
+}
+
+void write_meta(const hdf5::Handle& file, const ResultsOrigin& origin) {
+  const hdf5::Handle meta = hdf5::create_group(file, "meta");
+  hdf5::write_attribute(meta, "program", std::string("dem4grm"));
+  hdf5::write_attribute(meta, "format", k_format);
+  hdf5::write_attribute(meta, "version", std::string(k_version));
+  hdf5::write_attribute(meta, "commit", std::string(k_commit));
+  hdf5::write_attribute(meta, "compiler", std::string(k_compiler));
+  hdf5::write_attribute(meta, "test", origin.test);
+  hdf5::write_attribute(meta, "case", origin.case_name);
+  const std::array<std::string, 1> source{origin.case_text}, resolved{origin.resolved_toml};
+  hdf5::write_dataset(meta, {"case_text", "1", "the case file as it was read"}, source);
+  hdf5::write_dataset(meta, {"resolved_toml", "1", "every key of the case with its value"}, resolved);
 }
 
 std::string frame_name(int number) { return fmt::format("{:04}", number); }
@@ -55,7 +87,7 @@ StoredFrame read_frame(const hdf5::Handle& frames, const std::string& name) {
 
 /// True when a file has /meta of this case, these frames, and nothing else.
 bool holds_just(const std::filesystem::path& path, const ResultsOrigin& origin, std::span<const FrameInfo> frames) {
-  const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+  const hdf5::Handle file = open_results(path);
   if (hdf5::read_text(hdf5::open_group(file, "meta"), "resolved_toml") != origin.resolved_toml) return false;
   std::vector<std::string> wanted;
   for (const FrameInfo& f : frames) wanted.push_back(frame_name(f.number));
@@ -65,53 +97,60 @@ bool holds_just(const std::filesystem::path& path, const ResultsOrigin& origin, 
 
 }  // namespace
 
+void change_sealed_file(const std::filesystem::path& path, const std::function<void(const hdf5::Handle&)>& change) {
+  replace_sealed(path, [&](const std::filesystem::path& draft) {
+    copy_to_new_file(path, draft);
+    hdf5::Handle file = hdf5::open_file(draft, hdf5::Access::write);
+    change(file);
+    file.close("the file cannot be closed");
+  });
+}
+
 ResultsFile::ResultsFile(std::filesystem::path path, const ResultsOrigin& origin, std::span<const FrameInfo> kept)
     : path_(std::move(path)) {
   if (holds_just(path_, origin, kept)) return;  // a copy has the same content, but not the same bytes
-  std::filesystem::path draft = path_;
-  draft += ".tmp";
-  const ResultsFile fresh(draft, origin);
-  add_to_file(draft, [&](const hdf5::Handle& file) {
-    const hdf5::Handle old = hdf5::open_file(path_, hdf5::Access::read);
-    const hdf5::Handle from = hdf5::open_group(old, "frames"), to = hdf5::open_group(file, "frames");
+  replace_sealed(path_, [&](const std::filesystem::path& draft) {
+    hdf5::Handle file = hdf5::create_file(draft, k_seal_bytes);
+    write_meta(file, origin);
+    const hdf5::Handle old = open_results(path_), from = hdf5::open_group(old, "frames");
+    const hdf5::Handle to = hdf5::create_group(file, "frames");
     for (const FrameInfo& f : kept) hdf5::copy_group(from, frame_name(f.number), to);
+    file.close("the file cannot be closed");
   });
-  publish_file(draft, path_);
 }
 
 ResultsFile::ResultsFile(std::filesystem::path path, const ResultsOrigin& origin) : path_(std::move(path)) {
-  hdf5::create_file(path_).close(path_.string() + ": cannot be written");
-  add_to_file(path_, [&](const hdf5::Handle& file) {
-    const hdf5::Handle meta = hdf5::create_group(file, "meta");
-    hdf5::write_attribute(meta, "program", std::string("dem4grm"));
-    hdf5::write_attribute(meta, "format", k_format);
-    hdf5::write_attribute(meta, "version", std::string(k_version));
-    hdf5::write_attribute(meta, "commit", std::string(k_commit));
-    hdf5::write_attribute(meta, "compiler", std::string(k_compiler));
-    hdf5::write_attribute(meta, "test", origin.test);
-    hdf5::write_attribute(meta, "case", origin.case_name);
-    const std::array<std::string, 1> source{origin.case_text}, resolved{origin.resolved_toml};
-    hdf5::write_dataset(meta, {"case_text", "1", "the case file as it was read"}, source);
-    hdf5::write_dataset(meta, {"resolved_toml", "1", "every key of the case with its value"}, resolved);
+  replace_sealed(path_, [&](const std::filesystem::path& draft) {
+    hdf5::Handle file = hdf5::create_file(draft, k_seal_bytes);
+    write_meta(file, origin);
     hdf5::create_group(file, "frames");
+    file.close("the file cannot be closed");
   });
 }
 
 void ResultsFile::add_frame(const Simulation& state, const FrameInfo& info) {
-  add_to_file(path_, [&](const hdf5::Handle& file) {
+  change_sealed_file(path_, [&](const hdf5::Handle& file) {
     write_frame(hdf5::open_group(file, "frames"), frame_name(info.number), state, info);
   });
 }
 
-void ResultsFile::add_table(const std::string& group, const TableFile& table) {
-  add_to_file(path_, [&](const hdf5::Handle& file) {
-    const hdf5::Handle place = hdf5::create_group(file, group);
-    for (std::size_t c = 0; c < table.columns().size(); ++c) {
-      const ColumnInfo& column = table.columns()[c];
-      hdf5::write_dataset(place, {std::string(column.name), std::string(column.unit), std::string(column.description)},
-                          table.values_of(c));
+void ResultsFile::add_tables(std::span<const NamedTable> tables) {
+  change_sealed_file(path_, [&](const hdf5::Handle& file) {
+    for (const NamedTable& named : tables) {
+      const hdf5::Handle place = hdf5::create_group(file, named.group);
+      for (std::size_t c = 0; c < named.table->columns().size(); ++c) {
+        const ColumnInfo& column = named.table->columns()[c];
+        hdf5::write_dataset(place,
+                            {std::string(column.name), std::string(column.unit), std::string(column.description)},
+                            named.table->values_of(c));
+      }
     }
   });
+}
+
+hdf5::Handle open_results(const std::filesystem::path& path) {
+  check_seal_once(path);
+  return hdf5::open_file(path, hdf5::Access::read);
 }
 
 std::filesystem::path results_in(const std::filesystem::path& path) {

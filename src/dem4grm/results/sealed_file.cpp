@@ -3,8 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <sys/stat.h>
+
+#include <array>
 #include <charconv>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +57,33 @@ std::string seal_of(const Content& content) {
   return seal;
 }
 
+/// Which file, and which content of it, as far as the operating system tells: file system, number, length and last change.
+using FileContent = std::array<std::int64_t, 5>;
+
+FileContent identity_of(const std::filesystem::path& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) throw_io_error(path, "cannot be read");
+  return {static_cast<std::int64_t>(found.st_dev), static_cast<std::int64_t>(found.st_ino), found.st_size,
+          found.st_ctim.tv_sec, found.st_ctim.tv_nsec};
+}
+
+/// Files that were found whole. A report reads the states of one file one after the other, each through a function that checks.
+class KnownFiles {
+ public:
+  bool has(const FileContent& content) {
+    const std::lock_guard lock(mutex_);
+    return whole_.contains(content);
+  }
+  void add(const FileContent& content) {
+    const std::lock_guard lock(mutex_);
+    whole_.insert(content);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<FileContent> whole_;
+};
+
 /// The length that a seal tells; 0 when it tells none.
 std::uint64_t told_length(std::string_view head) {
   std::uint64_t length = 0;
@@ -84,6 +116,23 @@ void check_seal(const std::filesystem::path& path) {
     throw IoError(fmt::format("{}: is damaged: {} bytes where its seal tells {}", shown, content.length, told));
   }
   throw IoError(fmt::format("{}: is damaged: its content does not fit its seal", shown));
+}
+
+bool has_seal(const std::filesystem::path& path) {
+  constexpr std::string_view k_signature = "\x89HDF\r\n\x1a\n";
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw_io_error(path, "cannot be read");
+  std::string head(k_signature.size(), '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return head != k_signature;
+}
+
+void check_seal_once(const std::filesystem::path& path) {
+  static KnownFiles known;
+  const FileContent content = identity_of(path);
+  if (known.has(content) || !has_seal(path)) return;
+  check_seal(path);
+  known.add(content);
 }
 
 }  // namespace dem

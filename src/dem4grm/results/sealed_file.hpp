@@ -22,4 +22,10 @@ void seal_file(const std::filesystem::path& path);
 /// Throws IoError that says what is wrong: cut, longer, changed, or no sealed file at all.
 void check_seal(const std::filesystem::path& path);
 
+/// False for an HDF5 file that begins with its own signature, as one without a seal does. Throws IoError when it cannot be read.
+bool has_seal(const std::filesystem::path& path);
+
+/// check_seal, but for a file without a seal, and for one that this process has found whole and nobody has changed since.
+void check_seal_once(const std::filesystem::path& path);
+
 }  // namespace dem

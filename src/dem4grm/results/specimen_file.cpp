@@ -13,6 +13,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/results/results_file.hpp"
 #include "dem4grm/results/state_group.hpp"
 
 namespace dem {
@@ -56,11 +57,11 @@ bool has_same_specimen(const std::string& stored_case, const DirectShearCase& te
 }
 
 void add_specimen_state(const std::filesystem::path& path, const StateArchive& state) {
-  hdf5::Handle file = hdf5::open_file(path, hdf5::Access::write);
-  const hdf5::Handle group = hdf5::create_group(file, k_state);
-  hdf5::write_attribute(group, "format", k_state_format);
-  write_state(group, state);
-  file.close(path.string() + ": cannot be written");
+  change_sealed_file(path, [&](const hdf5::Handle& file) {
+    const hdf5::Handle group = hdf5::create_group(file, k_state);
+    hdf5::write_attribute(group, "format", k_state_format);
+    write_state(group, state);
+  });
 }
 
 StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShearCase& test) {
@@ -71,7 +72,7 @@ StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShe
     throw MissingFileError(fmt::format("{}: no such file; dem4grm specimen makes one", path.string()));
   }
   try {
-    const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+    const hdf5::Handle file = open_results(path);
     const std::vector<std::string> groups = hdf5::names_in(file);
     if (std::find(groups.begin(), groups.end(), k_state) == groups.end()) {
       throw IoError("holds no complete specimen to start from");

@@ -47,7 +47,7 @@ std::vector<Vec3> read_normals(const hdf5::Handle& frame) {
 }
 
 StoredGrains read_first_state(const std::filesystem::path& path) {
-  const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
+  const hdf5::Handle file = open_results(path);
   const hdf5::Handle meta = hdf5::open_group(file, "meta");
   if (hdf5::read_text_attribute(meta, "test") != "direct_shear") {
     throw Error(ExitCode::usage, fmt::format("{}: is of no direct shear test: it holds no specimen", path.string()));

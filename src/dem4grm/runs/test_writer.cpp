@@ -2,6 +2,7 @@
 #include "dem4grm/runs/test_writer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -224,9 +225,10 @@ void TestWriter::write_tables() {
   sync_tables();
   // Without the file the run ended before it had anything of its own to add.
   if (!results_) return;
-  results_->add_table(is_direct_shear_ ? "shear" : "compression", *table_);
-  if (wall_table_) results_->add_table("walls", *wall_table_);
-  if (micro_table_) results_->add_table("micro", *micro_table_);
+  std::vector<NamedTable> tables{{is_direct_shear_ ? "shear" : "compression", &*table_}};
+  if (wall_table_) tables.push_back({"walls", &*wall_table_});
+  if (micro_table_) tables.push_back({"micro", &*micro_table_});
+  results_->add_tables(tables);
 }
 
 /// Read back from the file, so that a test that was stopped on its way has those of its earlier parts too.
@@ -234,7 +236,8 @@ void TestWriter::write_profiles() {
   profiles_ = read_profiles(folder_.file(file_name::k_results));
   TableFile table(folder_.file(file_name::k_profiles), profile_columns());
   append_profiles(table, profiles_);
-  results_->add_table("profiles", table);
+  const std::array<NamedTable, 1> profiles{{{"profiles", &table}}};
+  results_->add_tables(profiles);
 }
 
 void TestWriter::sync_tables() {

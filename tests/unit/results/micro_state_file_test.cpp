@@ -88,11 +88,10 @@ TEST_F(MicroStateFile, SaysWhichStatesThereAre) {
 }
 
 TEST_F(MicroStateFile, StatesOfEarlierBuildsAreRefusedWithTheReason) {
-  {
-    const hdf5::Handle file = hdf5::open_file(path_, hdf5::Access::write);
+  change_sealed_file(path_, [](const hdf5::Handle& file) {
     const hdf5::Handle contacts = hdf5::open_group(file, "frames/0001/contacts");
     ASSERT_GE(H5Ldelete(contacts.id(), "is_sliding", H5P_DEFAULT), 0);
-  }
+  });
   expect_error(path_, 2e-3, ExitCode::io, "run the case again");
 }
 

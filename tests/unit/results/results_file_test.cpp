@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/observe.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
@@ -49,7 +51,7 @@ class ResultsTest : public ::testing::Test {
     ShearRow row;
     row.shear_stress = 5e3;
     table.append(shear_values(row, 0.5));
-    file.add_table("shear", table);
+    file.add_tables(std::array<NamedTable, 1>{{{"shear", &table}}});
   }
 
   TemporaryFolder folder_;
@@ -164,7 +166,7 @@ TEST_F(ResultsTest, EqualContentGivesEqualBytes) {
   ShearRow row;
   row.shear_stress = 5e3;
   table.append(shear_values(row, 0.5));
-  file.add_table("shear", table);
+  file.add_tables(std::array<NamedTable, 1>{{{"shear", &table}}});
   EXPECT_EQ(read_all(folder_ / "again.h5"), read_all(path_));
 }
 
@@ -180,6 +182,25 @@ TEST_F(ResultsTest, CutAndForeignFilesAreRefusedWithTheirName) {
     }
   }
   EXPECT_THROW(read_outline(folder_ / "missing.h5"), MissingFileError);
+}
+
+TEST_F(ResultsTest, AChangeThatFailsLeavesTheFileAndNoDraft) {
+  const std::string before = read_all(path_);
+  EXPECT_THROW(change_sealed_file(path_,
+                                  [](const hdf5::Handle& file) {
+                                    hdf5::create_group(file, "half");
+                                    throw IoError("no more");
+                                  }),
+               IoError);
+  EXPECT_EQ(read_all(path_), before);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "results.h5.tmp"));
+}
+
+TEST_F(ResultsTest, AnOpenReaderKeepsTheStatesThatItOpened) {
+  const hdf5::Handle reader = hdf5::open_file(path_, hdf5::Access::read);
+  change_sealed_file(path_, [](const hdf5::Handle& file) { hdf5::create_group(file, "later"); });
+  EXPECT_EQ(hdf5::names_in(reader), (std::vector<std::string>{"frames", "meta", "shear"}));
+  EXPECT_EQ(hdf5::names_in(open_results(path_)), (std::vector<std::string>{"frames", "later", "meta", "shear"}));
 }
 
 TEST(Results, FolderThatCannotBeWrittenIsAnIoError) {
