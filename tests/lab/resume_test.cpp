@@ -3,16 +3,21 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
+#include "dem4grm/engine/kernel_target.hpp"
 #include "dem4grm/engine/time_step.hpp"
 #include "dem4grm/lab/direct_shear.hpp"
 #include "dem4grm/specimen/specimen.hpp"
@@ -75,6 +80,12 @@ struct Interrupter : LabObserver {
   void micro_row(const MicroRow& row) override { micro_rows.push_back(row); }
   void frame(const Simulation& /*state*/, const FrameInfo& info) override { hashes[info.number] = info.state_hash; }
 };
+
+/// How often the test is stopped and goes on: 5 trials, or as many as DEM4GRM_RESUMES in the environment says.
+int number_of_trials() {
+  const char* text = std::getenv("DEM4GRM_RESUMES");
+  return text == nullptr ? 5 : std::max(1, std::atoi(text));
+}
 
 /// The state at the n-th offer of a checkpoint.
 StateArchive state_at(const DirectShearCase& test, int offer) {
@@ -152,14 +163,16 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
   RandomSequence random(7, RandomStream::test, 0);
   std::map<std::string, int> stopped_in;
   const int before = omp_get_max_threads();
-  for (int trial = 0; trial < 5; ++trial) {
-    // Stopped up to three times on its way, each part with another number of threads.
+  const std::vector<std::string_view> targets = usable_kernel_targets();
+  for (int trial = 0; trial < number_of_trials(); ++trial) {
+    // Stopped up to three times on its way, each part with another number of threads and other instructions of the processor.
     std::optional<std::vector<StateEntry>> state;
     std::map<int, std::string> hashes;
     std::vector<MicroRow> heard;
     std::optional<DirectShearResult> result;
     for (int part = 0; !result; ++part) {
       omp_set_num_threads(1 + (trial + part) % 3);
+      choose_kernel_target(targets[static_cast<std::size_t>(trial + part) % targets.size()]);
       Interrupter now;
       // Every second trial stops in shear first, which offers least often.
       const bool is_late = part == 0 && trial % 2 == 1;
@@ -201,6 +214,8 @@ TEST(Resume, FromAnyPointOfAnyStageEndsWithTheSameBits) {
     EXPECT_EQ(result->specimen.time_step.limited_by, expected.specimen.time_step.limited_by);
   }
   omp_set_num_threads(before);
+  choose_kernel_target(targets.front());
+  for (const auto& [stage, stops] : stopped_in) std::printf("stopped %d times in stage %s\n", stops, stage.c_str());
   for (const char* stage : {"fill", "compression", "shear"}) EXPECT_GT(stopped_in[stage], 0) << stage;
 }
 

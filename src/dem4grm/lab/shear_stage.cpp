@@ -16,6 +16,7 @@
 #include "dem4grm/lab/record_state.hpp"
 #include "dem4grm/lab/shear_curve.hpp"
 #include "dem4grm/lab/shear_velocity.hpp"
+#include "dem4grm/lab/shear_watch.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -23,10 +24,6 @@ namespace {
 
 constexpr int k_watch_interval = 500;    // steps between two looks of the watchdog
 constexpr int k_numbers_interval = 100;  // between two quick ones, for values that are no number
-/// Kinetic energy over all that was ever given: more than 1 cannot be, and one ball that is thrown out makes it many times that.
-constexpr double k_most_kinetic = 1.0;
-/// The mean normal stress over the last k_plate_window of displacement may be off by k_plate_limit.
-constexpr double k_plate_window = 1e-3, k_plate_limit = 0.3;
 /// The halves reach their velocity over this displacement, so that the start is no blow.
 constexpr double k_start_ramp = 2e-5;  // m
 /// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
@@ -177,8 +174,7 @@ void ShearStage::report() {
 void ShearStage::watch() {
   const Trouble trouble = find_trouble(s_, ShearBox::rooms_of(s_.walls), k_overlap_limit);
   if (trouble.kind == TroubleKind::none) {
-    check_energy();
-    check_plate();
+    check_books();
     if (!rows_.empty()) report();
     return;
   }
@@ -188,35 +184,12 @@ void ShearStage::watch() {
                   advice.empty() ? ". Try a smaller integration.time_step_safety or a slower shear.velocity" : advice));
 }
 
-/// What moves must have got its energy from the walls or from what was stored: more than that is made by an unstable step.
-void ShearStage::check_energy() const {
+void ShearStage::check_books() const {
   const EnergyReport now = s_.energy();
   const double given = now.boundary_work - start_energy_.boundary_work + start_energy_.kinetic +
                        start_energy_.contact_strain + start_energy_.bond_strain;
-  if (!(now.kinetic > k_most_kinetic * given)) return;
-  throw PhysicsError(
-      fmt::format("the grains move with {:.3g} J, more than the {:.3g} J that the walls and the stored energy could "
-                  "give (stage shear, "
-                  "{:.3f} mm): the calculation is unstable. Try a smaller integration.time_step_safety",
-                  now.kinetic, given, displacement_ * 1e3));
-}
-
-/// A plate that is far from its stress for long makes another test than the one that was asked for.
-void ShearStage::check_plate() const {
-  double sum = 0.0;
-  int n = 0;
-  for (auto row = rows_.rbegin(); row != rows_.rend() && row->displacement > displacement_ - k_plate_window;
-       ++row, ++n) {
-    sum += row->normal_stress;
-  }
-  if (n == 0 || displacement_ < k_plate_window) return;
-  const double off = sum / n / test_.shear.normal_stress - 1.0;
-  if (std::fabs(off) <= k_plate_limit) return;
-  throw PhysicsError(
-      fmt::format("the top plate holds {:.3g} kPa where {:g} kPa were asked for, over the last {:g} mm (stage shear, "
-                  "{:.3f} mm): it "
-                  "cannot follow. Try a slower shear.velocity, a larger servo.gain or servo.shear_speed_cap",
-                  sum / n / 1e3, test_.shear.normal_stress / 1e3, k_plate_window * 1e3, displacement_ * 1e3));
+  check_kinetic_energy(now.kinetic, given, displacement_);
+  check_plate_stress(rows_, displacement_, test_.shear.normal_stress);
 }
 
 void ShearStage::write_frame() {

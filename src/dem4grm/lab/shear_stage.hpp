@@ -42,8 +42,7 @@ class ShearStage {
   [[nodiscard]] EnergyReport since_start(EnergyReport e) const;
   void report();
   void watch();
-  void check_energy() const;
-  void check_plate() const;
+  void check_books() const;
   void tell_velocity();
   void write_frame();
   void record_micro();

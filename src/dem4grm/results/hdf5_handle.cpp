@@ -245,11 +245,19 @@ Handle open_dataset(const Handle& parent, const std::string& name) {
   return {H5Dopen2(parent.id(), name.c_str(), H5P_DEFAULT), H5Dclose, fmt::format("dataset {} cannot be read", name)};
 }
 
+/// Bytes that a dataset takes in its file, as the file says; not more than the file has.
+double stored_bytes(const Handle& dataset) {
+  const Handle file(H5Iget_file_id(dataset.id()), H5Fclose, "the file of a dataset");
+  hsize_t all = 0;
+  check(H5Fget_filesize(file.id(), &all), "the length of the file");
+  return static_cast<double>(std::min(H5Dget_storage_size(dataset.id()), all));
+}
+
 /// Number of values of a dataset. Throws IoError when a damaged shape asks for more than the bytes in the file can hold,
 /// before memory is taken for it; deflate shrinks data to a 1032nd at most.
 std::size_t count_of(const Handle& dataset, const Handle& parent, const std::string& name, std::size_t value_bytes) {
   constexpr double k_most_over_stored = 1100.0;
-  double most = 4096.0 + k_most_over_stored * static_cast<double>(H5Dget_storage_size(dataset.id()));
+  double most = 4096.0 + k_most_over_stored * stored_bytes(dataset);
   std::size_t count = 1;
   for (const std::size_t length : dataset_shape(parent, name)) {
     most /= std::max(1.0, static_cast<double>(length));

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/core/random.hpp"
@@ -49,19 +50,32 @@ class ResultsIntegrity : public ::testing::Test {
 
 constexpr int k_usual_damages = 300;
 
-/// Some damage makes libhdf5 1.10 crash, about one flipped bit in thousands: found out in a child process.
-bool crashes_the_library(const std::filesystem::path& path) {
+enum class Finding { in_a_named_dataset, elsewhere, none, crash };
+
+/// What `info` and a reader make of a damaged file. In a process of its own: some damage makes libhdf5 1.10 crash, about one flipped bit in
+/// thousands, and what it cannot open it does not always give back.
+Finding finding_in(const std::filesystem::path& path) {
   const pid_t child = ::fork();
   if (child == 0) {
+    Finding found = Finding::none;
     try {
-      (void)check_results(path);
-    } catch (const Error&) {
+      (void)open_results(path);
+      ::_exit(static_cast<int>(found));
+    } catch (const IoError&) {
     }
-    ::_exit(0);
+    try {
+      const ResultsCheck check = check_results(path);
+      found = check.damaged.empty() ? Finding::elsewhere : Finding::in_a_named_dataset;
+      verdict_of(path, check);
+      found = Finding::none;
+    } catch (const IoError&) {
+      if (found == Finding::none) found = Finding::elsewhere;  // it cannot be opened
+    }
+    ::_exit(static_cast<int>(found));
   }
   int status = 0;
   ::waitpid(child, &status, 0);
-  return WIFSIGNALED(status);
+  return WIFEXITED(status) ? static_cast<Finding>(WEXITSTATUS(status)) : Finding::crash;
 }
 
 TEST_F(ResultsIntegrity, OfAFreshFileIsWhole) {
@@ -79,36 +93,29 @@ TEST_F(ResultsIntegrity, EveryFlippedBitIsFoundByInfoAndByReaders) {
   const std::filesystem::path other = folder_.path() / "other.h5";
   RandomSequence random(7, RandomStream::test, 0);
   const int damages = test::number_of_damages(k_usual_damages);
-  int by_checksum = 0, crashed = 0;
+  std::map<Finding, int> findings;
   for (int k = 0; k < damages; ++k) {
     std::string changed = bytes_;
     const auto at = static_cast<std::size_t>(random.uniform() * static_cast<double>(changed.size()));
     changed[at] = static_cast<char>(changed[at] ^ (1 << (k % 8)));
     test::write_all(other, changed);
-    EXPECT_THROW(open_results(other), IoError) << "bit " << k % 8 << " of byte " << at;
-    if (damages > k_usual_damages && crashes_the_library(other)) {
-      ++crashed;  // known of libhdf5 1.10; `info` reads in a process of its own
-      continue;
-    }
-    try {
-      const ResultsCheck check = check_results(other);
-      by_checksum += check.damaged.empty() ? 0 : 1;
-      EXPECT_THROW(verdict_of(other, check), IoError) << "bit " << k % 8 << " of byte " << at;
-    } catch (const IoError&) {  // it cannot be opened
-    }
+    const Finding found = finding_in(other);
+    ++findings[found];
+    EXPECT_NE(found, Finding::none) << "bit " << k % 8 << " of byte " << at;
   }
-  std::printf("%d damages, of which %d are found in a named dataset, %d crash libhdf5\n", damages, by_checksum,
-              crashed);
-  EXPECT_GT(by_checksum, damages / 8) << "half of so small a file is heads and free space";
+  std::printf("%d flipped bits: %d found in a named dataset, %d elsewhere, %d crash libhdf5\n", damages,
+              findings[Finding::in_a_named_dataset], findings[Finding::elsewhere], findings[Finding::crash]);
+  EXPECT_GT(findings[Finding::in_a_named_dataset], damages / 8) << "half of so small a file is heads and free space";
+  EXPECT_LE(findings[Finding::crash], 1 + damages / 1000);
 }
 
-TEST_F(ResultsIntegrity, EveryFlippedBitOfTheSealIsFound) {
+TEST_F(ResultsIntegrity, AFlippedBitOfAnyByteOfTheSealIsFound) {
   const std::filesystem::path other = folder_.path() / "other.h5";
-  for (std::size_t bit = 0; bit < 8 * k_seal_bytes; ++bit) {
+  for (std::size_t at = 0; at < k_seal_bytes; ++at) {
     std::string changed = bytes_;
-    changed[bit / 8] = static_cast<char>(changed[bit / 8] ^ (1 << (bit % 8)));
+    changed[at] = static_cast<char>(changed[at] ^ (1 << (at % 8)));
     test::write_all(other, changed);
-    EXPECT_THROW(open_results(other), IoError) << "bit " << bit;
+    EXPECT_THROW(open_results(other), IoError) << "byte " << at;
   }
 }
 
