@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import tiny
 
 import dem4grm
 from dem4grm.calibration.data import CURVES, NUMBERS, Series, errors_of, read_curve, thinned
-from dem4grm.calibration.trials import StopOf, run_program
+from dem4grm.calibration.trials import StopOf, run_elsewhere, run_program
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 COARSE = {"compression.records": 20, "compression.strain": 0.2, "compression.plate_velocity": "40 mm/s"}
@@ -158,6 +159,36 @@ def check_page(path):
     text = path.read_text(encoding="utf-8")
     assert "not identified" in text and text.count("data:image/png;base64,") == 4
     assert not re.search(r"""(src|href)=["']?(?!["']?data:)|url\(|https?://""", text), "the page asks for nothing"
+
+
+# ---- runs that something else starts ------------------------------------------------------------------------------------
+LAUNCHER = ["/bin/sh", "-c", 'echo started >> started.txt; exec "$@"', "launcher"]
+LOADS = [Series("load_N", "load_N", "strain", numpy.array([0.05, 0.1]), numpy.zeros(2), numpy.ones(2), numpy.zeros(2))]
+
+
+def test_runs_behind_a_launcher_give_the_same(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    case = dem4grm.Case.read(CASES / "grain_compression.toml", COARSE)
+    never = threading.Event()
+    here = run_program(case, tmp_path / "here", LOADS, 1, never, True)
+    there = run_program(case, tmp_path / "there", LOADS, 1, never, True, LAUNCHER)
+    assert (here[0][0] == there[0][0]).all() and here[1] == there[1]
+    assert (tmp_path / "started.txt").read_text() == "started\n"
+    assert not (tmp_path / "there.toml").exists()
+
+
+def test_a_launcher_hands_on_how_a_run_ended(tmp_path):
+    case = dem4grm.Case(tiny.TEXT, "tiny.toml")
+    stop = threading.Event()
+    stop.set()
+    with pytest.raises(dem4grm.Stopped):
+        run_elsewhere(case, tmp_path / "stopped", ["/usr/bin/env"], 1, stop)
+    assert run_elsewhere(case, tmp_path / "stopped", ["/usr/bin/env"], 1, threading.Event()).state_hash, "the same call goes on"
+    with pytest.raises(dem4grm.IoError, match="/nowhere/srun: cannot be started"):
+        run_elsewhere(case, tmp_path / "no", ["/nowhere/srun"], 1, threading.Event())
+    for code, kind in ((76, dem4grm.PhysicsError), (74, dem4grm.IoError), (3, dem4grm.Error)):
+        with pytest.raises(kind, match="no room on this node"):
+            run_elsewhere(case, tmp_path / "failed", ["/bin/sh", "-c", f"echo no room on this node >&2; exit {code}"], 1, threading.Event())
 
 
 # ---- a model of one's own: the statistics, without the cost -----------------------------------------------------------

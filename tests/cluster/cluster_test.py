@@ -25,6 +25,25 @@ import snippets  # noqa: E402
 PROGRAM = ""
 
 BASE = (ROOT / "cases/studies/small-box.toml").read_text(encoding="utf-8").replace("../gradings", str(ROOT / "cases/gradings"))
+DESK = """[[stage]]
+case = "{cases}/grain_compression.toml"
+trials = 6
+start = 3
+[stage.set]
+"compression.records" = 10
+"compression.strain" = 0.1
+"compression.plate_velocity" = "100 mm/s"
+[[stage.parameter]]
+key = "rubber.bond.modulus"
+low = "8 MPa"
+high = "60 MPa"
+[[stage.data]]
+quantity = "load_N"
+x = "strain"
+error = 0.5
+values = [[0.05, 3.0], [0.09, 7.0]]
+"""
+SRUN = """srun -n1 -c1 --quiet sh -c 'echo $SLURM_JOB_ID >> jobs.txt; exec "$@"' run"""
 MIXTURES = 'base = "base.toml"\n[axes]\nrubber_content = [0, 0.25]\nnormal_stress = ["50 kPa", "100 kPa"]\n'
 
 
@@ -252,6 +271,21 @@ class Campaigns(unittest.TestCase):
                               capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(self.state_of_tests("plain")["seed1"]["state"], "done")
+
+    def test_8_trials_of_a_calibration_run_through_srun(self):
+        package = pathlib.Path(PROGRAM).parents[2] / "python"
+        if not (package / "dem4grm").is_dir():
+            self.skipTest("built without the Python package")
+        (self.folder / "desk.toml").write_text(DESK.format(cases=ROOT / "cases"), encoding="utf-8")
+        results = []
+        for folder, launcher in (("srun", ["--launcher", SRUN]), ("here", [])):
+            done = subprocess.run([sys.executable, "-m", "dem4grm", "calibrate", "desk.toml", "-o", folder, "-w", "2", "-q", *launcher], cwd=self.folder,
+                                  env={**self.cluster.environment, "PYTHONPATH": str(package)}, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            results.append((self.folder / folder / "result.json").read_bytes())
+        self.assertEqual(*results)
+        jobs = text(self.folder / "jobs.txt").split()
+        self.assertEqual(len(set(jobs)), json.loads(results[0])["stages"][0]["runs"], "a job for each run")
 
     def test_7_what_slurm_refuses_is_said_in_its_own_words(self):
         study = self.write_study("refused.toml", 'base = "base.toml"\n[axes]\nseed = [1]\n')

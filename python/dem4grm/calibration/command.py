@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import shlex
 import signal
 import sys
 import threading
@@ -31,6 +32,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("-o", "--output", metavar="FOLDER", help="runs/<name of the desk> by default")
     parser.add_argument("-w", "--workers", type=_positive, default=1, metavar="N", help="trials at a time (1)")
     parser.add_argument("-t", "--threads", type=_positive, default=1, metavar="N", help="threads of each run (1)")
+    parser.add_argument("--launcher", type=shlex.split, default=[], metavar="WORDS", help="starts each run elsewhere: \"srun -n1 -c4\"")
     parser.add_argument("--check", action="store_true", help="reads the desk, says how many runs it takes, runs nothing")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
     return parser
@@ -79,7 +81,8 @@ def main(words: list[str]) -> int:
         desk = Desk.read(options.desk)
         _print_plan(desk)
         if not options.check:
-            _print_result(calibrate(desk, options.output, workers=options.workers, threads=options.threads, progress=progress, stop=stop))
+            _print_result(calibrate(desk, options.output, workers=options.workers, threads=options.threads, progress=progress, stop=stop,
+                                    launcher=options.launcher))
         return 0
     except Error as error:
         print(f"\n{error}" if stop.is_set() else error, file=sys.stderr)

@@ -6,7 +6,7 @@ import fcntl
 import json
 import os
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -66,8 +66,8 @@ class DeskRun:
     """Carries a desk out. `tell` gets (stage, record, trials done, trials in all) after each trial."""
 
     def __init__(self, desk: Desk, folder: Path, workers: int, threads: int, simulator: Simulator | None, stop: StopOf,
-                 tell: Callable[[str, dict[str, Any], int, int], bool | None], with_page: bool = True):
-        self._with_page = with_page
+                 tell: Callable[[str, dict[str, Any], int, int], bool | None], with_page: bool = True, launcher: Sequence[str] = ()):
+        self._with_page, self._launcher = with_page, launcher
         self._desk, self._folder, self._workers, self._threads = desk, folder, workers, threads
         self._simulator, self._stop, self._tell = simulator, stop, tell
 
@@ -114,7 +114,8 @@ class DeskRun:
         def tell(record: dict[str, Any]) -> bool | None:
             return self._tell(stage.name, record, len(store.records), total)
 
-        bench = Bench(stage, given, store, folder / "runs", self._workers, self._threads, self._simulator, self._stop, tell)
+        bench = Bench(stage, given, store, folder / "runs", self._workers, self._threads, self._simulator, self._stop, tell,
+                      self._launcher)
         return fit_stage(stage, given, bench, store, folder)
 
     def _predict(self, prediction: Prediction, found: dict[str, Any]) -> dict[str, Any]:
@@ -125,7 +126,7 @@ class DeskRun:
         case = with_changes(base, {key: value for key, value in found.items() if key in base and key not in base.changes})
         folder = self._folder / "predictions" / folder_name(0, prediction.name).removeprefix("1-")
         if self._simulator is None:
-            curves, _ = run_program(case, folder, prediction.series, self._threads, self._stop, keep=True)
+            curves, _ = run_program(case, folder, prediction.series, self._threads, self._stop, True, self._launcher)
         else:
             curves = list(self._simulator(case, int(case.si("seed") or 0) if "seed" in case else 0, prediction.series))
         data = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import subprocess
 import threading
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
@@ -16,7 +17,9 @@ import numpy
 from numpy.typing import NDArray
 
 from ..cases import Case
-from ..errors import CaseError, MissedError, PhysicsError, Stopped
+from ..errors import CaseError, IoError, MissedError, PhysicsError, Stopped, error_of
+from ..folders import Test
+from ..program import program
 from ..runs import StopFlag, run
 from .data import Series, at
 from .desk import Experiment, Stage, with_changes
@@ -82,10 +85,43 @@ class TrialStore:
         return [record for key, record in sorted(self.records.items()) if key[0] == "trial"]
 
 
-def run_program(case: Case, folder: Path, series: Sequence[Series], threads: int, stop: StopFlag,
-                keep: bool) -> tuple[list[NDArray], str]:
+def run_elsewhere(case: Case, folder: Path, launcher: Sequence[str], threads: int, stop: StopFlag) -> Test:
+    """As run, by a process of the command line program that the words of a launcher start, such as srun, and wait for.
+
+    Raises what run raises; IoError when the launcher itself cannot be started.
+    """
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    file = folder.with_name(folder.name + ".toml")
+    case.write(file)
+    command = [*launcher, str(program()), "run", str(file), "-o", str(folder), "-j", str(threads), "-q", "--no-report"]
+    try:
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    except OSError as error:
+        raise IoError(f"{launcher[0]}: cannot be started: {error.strerror}") from None
+    was_stopped = False
+    while True:
+        try:
+            _, said = process.communicate(timeout=0.5)
+            break
+        except subprocess.TimeoutExpired:
+            if stop.is_set() and not was_stopped:
+                was_stopped = True
+                process.terminate()
+    if process.returncode == 0:
+        file.unlink()
+        return Test(folder)
+    if was_stopped or process.returncode == Stopped.exit_code:
+        raise Stopped(f"{folder}: stopped; the same call goes on")
+    raise error_of(process.returncode, said.strip() or f"{' '.join(command)}: ended with {process.returncode}", [])
+
+
+def run_program(case: Case, folder: Path, series: Sequence[Series], threads: int, stop: StopFlag, keep: bool,
+                launcher: Sequence[str] = ()) -> tuple[list[NDArray], str]:
     """Runs a case, or goes on with it, and reads what the data are compared with."""
-    test = run(case, folder, threads=threads, message=None, stop=stop)
+    if launcher:
+        test = run_elsewhere(case, folder, launcher, threads, stop)
+    else:
+        test = run(case, folder, threads=threads, message=None, stop=stop)
     table = test.compression if case.test == "grain_compression" else test.shear
     found = []
     for item in series:
@@ -106,11 +142,13 @@ class Bench:
     """Carries out the jobs of a stage that are not in its store.
 
     simulator   None for DEM4GRM itself; else called as simulator(case, seed, series), from several threads
+    launcher    words before the command of each run; none: runs within this process
     tell        called with each record that is new, in the calling thread; stops the calibration when it returns False
     """
 
     def __init__(self, stage: Stage, given: dict[str, Any], store: TrialStore, folder: Path, workers: int, threads: int,
-                 simulator: Simulator | None, stop: StopOf, tell: Callable[[dict[str, Any]], bool | None]):
+                 simulator: Simulator | None, stop: StopOf, tell: Callable[[dict[str, Any]], bool | None], launcher: Sequence[str] = ()):
+        self._launcher = launcher
         self._stage, self._given, self._store, self._folder = stage, given, store, folder
         self._workers, self._threads, self._simulator = workers, threads, simulator
         self._stop, self._tell = stop, tell
@@ -140,7 +178,7 @@ class Bench:
                 if self._simulator is None:
                     # Runs that this kill or stop interrupts go on from their checkpoint: their folder has a name of its own.
                     folder = self._folder / f"{job.role}-{job.point}-{job.number}-{k}"
-                    curves, state_hash = run_program(case, folder, asked, self._threads, self._stop, job.role in ("best", "full"))
+                    curves, state_hash = run_program(case, folder, asked, self._threads, self._stop, job.role in ("best", "full"), self._launcher)
                     hashes.append(state_hash)
                 else:
                     curves = list(self._simulator(case, seed, asked))
