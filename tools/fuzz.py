@@ -19,8 +19,11 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "fuzz"
 TEXTS = {"case": ["cases/*.toml", "cases/paper/direct-shear.toml"], "study": ["cases/paper/campaign.toml", "cases/studies/*.toml"],
-         "grading": ["cases/gradings/*.csv"], "clumps": ["cases/clumps/*.csv"]}
+         "grading": ["cases/gradings/*.csv"], "clumps": ["cases/clumps/*.csv"],
+         "published": ["cases/paper/published.csv"], "laboratory": []}
 FILES = {"checkpoint": "checkpoint.h5", "results": "results.h5"}
+CURVES = ("Shear box;;\nHorizontal displacement (mm);Shear stress (kPa);Vertical displacement (mm)\n0;0;0\n0,5;45;-0,02\n2;70;0,1\n",
+          "u [cm],tau [MPa],settlement [um]\n0,0,0\n0.05,0.045,20\n", "displacement\tshear force (kN)\n0\t0\n1e-1\t.2\n")
 PATIENCE = {"study": 30}  # s; a study reads its case once for every test, and may have many
 LONGEST = {"checkpoint": 4_000_000, "results": 4_000_000}
 
@@ -38,6 +41,8 @@ def seeds(target, program, folder):
     for pattern in TEXTS.get(target, []):
         for path in ROOT.glob(pattern):
             shutil.copy(path, folder / path.name)
+    for k, text in enumerate(CURVES if target == "laboratory" else ()):
+        (folder / f"curve{k}.csv").write_text(text, encoding="utf-8")
     if target in FILES:
         made = BUILD / "run"
         shutil.rmtree(made, ignore_errors=True)

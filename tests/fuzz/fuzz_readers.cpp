@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Entry of libFuzzer for everything that reads a file of a user. DEM4GRM_FUZZ_TARGET says which: case, study, grading, clumps,
-// checkpoint (behind its seal, which random bytes never have) or results. A reader may refuse by an Error of the library
+// laboratory (a curve for the report), published (values for the report), checkpoint (behind its seal, which random bytes never have) or
+// results. A reader may refuse by an Error of the library
 // and nothing else; crashes, sanitizer reports, other exceptions and hangs are findings. tools/fuzz.py builds and runs it.
 #include <unistd.h>
 
@@ -18,6 +19,9 @@
 #include "dem4grm/case_file/clump_file.hpp"
 #include "dem4grm/case_file/grading_file.hpp"
 #include "dem4grm/core/error.hpp"
+#include "dem4grm/report/laboratory_curve.hpp"
+#include "dem4grm/report/published_values.hpp"
+#include "dem4grm/results/json_text.hpp"
 #include "dem4grm/results/results_check.hpp"
 #include "dem4grm/results/sealed_file.hpp"
 #include "dem4grm/runs/checkpoint_file.hpp"
@@ -52,6 +56,14 @@ const std::map<std::string, std::function<void(std::string_view)>> k_targets{
     {"study", [](std::string_view bytes) { (void)load_study(file_of(bytes)); }},
     {"grading", [](std::string_view bytes) { (void)parse_grading(bytes, "input.csv"); }},
     {"clumps", [](std::string_view bytes) { (void)parse_clumps(bytes, "input.csv"); }},
+    {"laboratory",
+     [](std::string_view bytes) {
+       (void)json_text(laboratory_as_json(parse_laboratory_curve(bytes, "input.csv"), "test"));
+     }},
+    {"published",
+     [](std::string_view bytes) {
+       (void)json_text(JsonObject{{"published", published_as_json(parse_published_values(bytes, "input.csv"))}});
+     }},
     {"checkpoint", read_checkpoint_behind_seal},
     {"results", [](std::string_view bytes) { (void)verdict_of("input", check_results(file_of(bytes))); }}};
 
