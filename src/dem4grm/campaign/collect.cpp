@@ -17,6 +17,7 @@
 #include "dem4grm/core/quantity.hpp"
 #include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/micro_table.hpp"
+#include "dem4grm/results/profile_file.hpp"
 
 namespace dem {
 namespace {
@@ -85,36 +86,39 @@ JsonObject flattened(const JsonObject& summary) {
   return flat;
 }
 
+/// The rows of one test behind those of the tests before it.
+void append_rows(CollectedTable& all, CollectedTable fresh) {
+  if (all.columns.empty()) {
+    all = std::move(fresh);
+    return;
+  }
+  all.test.insert(all.test.end(), fresh.test.begin(), fresh.test.end());
+  for (std::size_t c = 0; c < fresh.columns.size(); ++c) {
+    const std::vector<double>& values = fresh.columns[c].values;
+    all.columns[c].values.insert(all.columns[c].values.end(), values.begin(), values.end());
+  }
+}
+
 void add_test(const CollectedTest& test, Collection& out) {
   const auto number = static_cast<std::int32_t>(out.tests.size());
   const JsonObject summary = read_json_file(test.folder / file_name::k_summary);
-  // A test that turns out to be damaged must leave no rows behind.
-  CollectedTable shear = std::move(out.shear), micro = std::move(out.micro), compression = std::move(out.compression);
-  const auto put_back = [&](std::size_t rows_of_shear, std::size_t rows_of_micro, std::size_t rows_of_compression) {
-    const auto cut = [](CollectedTable& table, std::size_t rows) {
-      table.test.resize(rows);
-      for (CollectedTable::Column& column : table.columns) column.values.resize(rows);
-    };
-    cut(shear, rows_of_shear);
-    cut(micro, rows_of_micro);
-    cut(compression, rows_of_compression);
-    out.shear = std::move(shear);
-    out.micro = std::move(micro);
-    out.compression = std::move(compression);
+  Collection fresh;  // a test that turns out to be damaged must leave no rows behind
+  const auto add_if_there = [&](const char* name, std::span<const ColumnInfo> columns, CollectedTable& table) {
+    if (std::filesystem::exists(test.folder / name)) add_rows(test.folder / name, number, columns, table);
   };
-  const std::size_t n_shear = shear.test.size(), n_micro = micro.test.size(), n_compression = compression.test.size();
-  try {
-    if (text_in(summary, "test") == "grain_compression") {
-      add_rows(test.folder / file_name::k_grain, number, compression_columns(), compression);
-    } else {
-      add_rows(test.folder / file_name::k_shear, number, shear_columns(), shear);
-      add_rows(test.folder / file_name::k_micro, number, micro_columns(), micro);
-    }
-  } catch (...) {
-    put_back(n_shear, n_micro, n_compression);
-    throw;
+  if (text_in(summary, "test") == "grain_compression") {
+    add_rows(test.folder / file_name::k_grain, number, compression_columns(), fresh.compression);
+  } else {
+    add_rows(test.folder / file_name::k_shear, number, shear_columns(), fresh.shear);
+    add_rows(test.folder / file_name::k_micro, number, micro_columns(), fresh.micro);
+    add_if_there(file_name::k_walls, wall_columns(), fresh.walls);
+    add_if_there(file_name::k_profiles, profile_columns(), fresh.profiles);
   }
-  put_back(shear.test.size(), micro.test.size(), compression.test.size());
+  append_rows(out.shear, std::move(fresh.shear));
+  append_rows(out.walls, std::move(fresh.walls));
+  append_rows(out.micro, std::move(fresh.micro));
+  append_rows(out.profiles, std::move(fresh.profiles));
+  append_rows(out.compression, std::move(fresh.compression));
   out.tests.push_back(test);
   out.summaries.push_back(flattened(summary));
 }

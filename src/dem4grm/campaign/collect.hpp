@@ -48,6 +48,7 @@ struct Collection {
   std::vector<std::string> columns;   ///< of the values of the study, in their order
   std::vector<JsonObject> summaries;  ///< plain numbers and short texts; objects inside are flattened
   CollectedTable shear, micro, compression;
+  CollectedTable walls, profiles;  ///< in collected.h5 alone: dozens of columns, and rows over the height
   std::vector<MixtureEnvelope> envelopes;
   std::vector<std::string> warnings;  ///< of tests that were left out, since their files are damaged
 };

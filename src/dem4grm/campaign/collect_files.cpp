@@ -322,7 +322,9 @@ void write_hdf5(const Collection& c, const std::filesystem::path& path) {
   hdf5::write_attribute(meta, "version", std::string(k_version));
   write_tests(file, c);
   write_curves(file, "shear", c.shear);
+  write_curves(file, "walls", c.walls);
   write_curves(file, "micro", c.micro);
+  write_curves(file, "profiles", c.profiles);
   write_curves(file, "compression", c.compression);
   write_envelopes(file, c);
   file.close(draft.string() + ": cannot be written");

@@ -16,13 +16,6 @@
 namespace dem {
 namespace {
 
-std::vector<Vec3> vectors_in(const hdf5::Handle& group, const char* name) {
-  const std::vector<double> values = hdf5::read_dataset(group, name);
-  std::vector<Vec3> out(values.size() / 3);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
-  return out;
-}
-
 std::vector<int> integers_in(const hdf5::Handle& group, const char* name) {
   const std::vector<std::int64_t> values = hdf5::read_whole_numbers(group, name);
   return {values.begin(), values.end()};
@@ -36,8 +29,8 @@ void read_clumps(const hdf5::Handle& frame, StoredState& out) {
   const hdf5::Handle group = hdf5::open_group(frame, "clumps");
   const std::vector<double> q = hdf5::read_dataset(group, "orientation");
   for (std::size_t k = 0; k + 3 < q.size(); k += 4) out.orientation.push_back({q[k], q[k + 1], q[k + 2], q[k + 3]});
-  out.clump_velocity = vectors_in(group, "velocity");
-  out.clump_spin = vectors_in(group, "spin");
+  out.clump_velocity = hdf5::read_vectors(group, "velocity");
+  out.clump_spin = hdf5::read_vectors(group, "spin");
   out.clump_mass = hdf5::read_dataset(group, "mass");
   out.clump_size = hdf5::read_dataset(group, "sieve_size");
   out.clump_shape = integers_in(group, "shape");
@@ -51,8 +44,9 @@ void read_clumps(const hdf5::Handle& frame, StoredState& out) {
 void read_walls(const hdf5::Handle& frame, StoredState& out) {
   const hdf5::Handle group = hdf5::open_group(frame, "walls");
   const std::vector<std::string> name = hdf5::read_texts(group, "name");
-  const std::vector<Vec3> corner = vectors_in(group, "corner"), u = vectors_in(group, "u"), v = vectors_in(group, "v"),
-                          force = vectors_in(group, "force"), velocity = vectors_in(group, "velocity");
+  const std::vector<Vec3> corner = hdf5::read_vectors(group, "corner"), u = hdf5::read_vectors(group, "u"),
+                          v = hdf5::read_vectors(group, "v"), force = hdf5::read_vectors(group, "force"),
+                          velocity = hdf5::read_vectors(group, "velocity");
   const std::vector<double> lengths = hdf5::read_dataset(group, "lengths"),
                             friction = hdf5::read_dataset(group, "friction");
   const std::vector<int> carrier = integers_in(group, "carrier");
@@ -85,7 +79,7 @@ StoredState read_stored_state(const hdf5::Handle& file, const std::string& name)
   out.name = name;
   out.displacement = hdf5::read_number_attribute(frame, "displacement");
   out.packing = read_packing(frame);
-  out.ball_velocity = vectors_in(hdf5::open_group(frame, "balls"), "velocity");
+  out.ball_velocity = hdf5::read_vectors(hdf5::open_group(frame, "balls"), "velocity");
   check_rows(out.ball_velocity.size(), out.packing.position.size(), "balls/velocity");
   out.micro = read_micro_state(frame);
   const RubberState& rubber = out.micro.rubber;

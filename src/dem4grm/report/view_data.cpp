@@ -28,13 +28,6 @@ constexpr double k_quaternion_scale = 32767.0;
 constexpr PackingRule k_unsigned16{2, false, false}, k_signed16{2, true, false}, k_ascending32{4, false, true},
     k_plain32{4, false, false}, k_byte{1, false, false};
 
-std::vector<Vec3> vectors_in(const hdf5::Handle& group, const std::string& name) {
-  const std::vector<double> values = hdf5::read_dataset(group, name);
-  std::vector<Vec3> out(values.size() / 3);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
-  return out;
-}
-
 /// What a view needs of one stored state.
 struct ViewedState {
   double displacement = 0.0;  ///< m
@@ -57,7 +50,8 @@ struct ViewedState {
 void read_wall_planes(const hdf5::Handle& frame, ViewedState& out) {
   const hdf5::Handle group = hdf5::open_group(frame, "walls");
   const std::vector<std::string> names = hdf5::read_texts(group, "name");
-  const std::vector<Vec3> corner = vectors_in(group, "corner"), u = vectors_in(group, "u"), v = vectors_in(group, "v");
+  const std::vector<Vec3> corner = hdf5::read_vectors(group, "corner"), u = hdf5::read_vectors(group, "u"),
+                          v = hdf5::read_vectors(group, "v");
   const std::vector<double> lengths = hdf5::read_dataset(group, "lengths");
   for (std::size_t w = 0; w < names.size(); ++w) {
     out.walls.push_back({names[w], corner.at(w), u.at(w) * lengths.at(2 * w), v.at(w) * lengths.at(2 * w + 1)});
@@ -70,11 +64,11 @@ ViewedState read_viewed_state(const std::filesystem::path& path, const hdf5::Han
   out.micro = read_micro_state(path, info.displacement).state;
   const hdf5::Handle frame = hdf5::open_group(frames, info.name);
   const hdf5::Handle balls = hdf5::open_group(frame, "balls");
-  out.ball_position = vectors_in(balls, "position");
+  out.ball_position = hdf5::read_vectors(balls, "position");
   out.ball_radius = hdf5::read_dataset(balls, "radius");
   out.ball_body = hdf5::read_whole_numbers(balls, "body");
   const hdf5::Handle clumps = hdf5::open_group(frame, "clumps");
-  out.clump_position = vectors_in(clumps, "position");
+  out.clump_position = hdf5::read_vectors(clumps, "position");
   out.clump_mass = hdf5::read_dataset(clumps, "mass");
   const std::vector<double> q = hdf5::read_dataset(clumps, "orientation");
   for (std::size_t k = 0; k + 3 < q.size(); k += 4)

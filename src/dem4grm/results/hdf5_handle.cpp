@@ -286,6 +286,13 @@ std::vector<double> read_dataset(const Handle& parent, const std::string& name) 
   return read_values<double>(parent, name, H5T_NATIVE_DOUBLE);
 }
 
+std::vector<Vec3> read_vectors(const Handle& parent, const std::string& name) {
+  const std::vector<double> values = read_dataset(parent, name);
+  std::vector<Vec3> rows(values.size() / 3);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
+  return rows;
+}
+
 std::vector<std::int64_t> read_whole_numbers(const Handle& parent, const std::string& name) {
   return read_values<std::int64_t>(parent, name, H5T_NATIVE_INT64);
 }

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "dem4grm/core/vec3.hpp"
+
 namespace dem::hdf5 {
 
 /// Owns one handle. Every function below throws IoError with file or object name when the library fails.
@@ -79,6 +81,8 @@ void write_dataset(const Handle& parent, const Label& label, std::span<const std
 /// Length of each dimension.
 std::vector<std::size_t> dataset_shape(const Handle& parent, const std::string& name);
 std::vector<double> read_dataset(const Handle& parent, const std::string& name);
+/// Rows of three numbers, [n][3].
+std::vector<Vec3> read_vectors(const Handle& parent, const std::string& name);
 std::vector<std::int64_t> read_whole_numbers(const Handle& parent, const std::string& name);
 std::vector<std::uint8_t> read_bytes(const Handle& parent, const std::string& name);
 /// All rows of a dataset of texts.

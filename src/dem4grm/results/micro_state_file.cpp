@@ -16,13 +16,6 @@ namespace {
 
 using hdf5::Handle;
 
-std::vector<Vec3> read_vectors(const Handle& group, const std::string& name) {
-  const std::vector<double> values = hdf5::read_dataset(group, name);
-  std::vector<Vec3> out(values.size() / 3);
-  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
-  return out;
-}
-
 /// Columns of equal length or an IoError.
 void expect_rows(std::size_t rows, std::size_t wanted, const char* what) {
   if (rows != wanted) throw IoError(fmt::format("{} has {} rows where {} belong", what, rows, wanted));
@@ -31,7 +24,7 @@ void expect_rows(std::size_t rows, std::size_t wanted, const char* what) {
 std::vector<Wall> read_walls(const Handle& frame) {
   const Handle group = hdf5::open_group(frame, "walls");
   const std::vector<std::string> names = hdf5::read_texts(group, "name");
-  const std::vector<Vec3> corner = read_vectors(group, "corner");
+  const std::vector<Vec3> corner = hdf5::read_vectors(group, "corner");
   const std::vector<double> lengths = hdf5::read_dataset(group, "lengths");
   expect_rows(corner.size(), names.size(), "walls/corner");
   expect_rows(lengths.size(), 2 * names.size(), "walls/lengths");
@@ -48,8 +41,8 @@ std::vector<Wall> read_walls(const Handle& frame) {
 /// Places and materials of the bodies: rubber grains, then clumps.
 void read_bodies(const Handle& frame, const std::vector<std::uint8_t>& material, ContactNetwork& out) {
   const std::vector<std::int64_t> body = hdf5::read_whole_numbers(hdf5::open_group(frame, "balls"), "body");
-  out.body_position = read_vectors(hdf5::open_group(frame, "rubber_grains"), "centre");
-  const std::vector<Vec3> clumps = read_vectors(hdf5::open_group(frame, "clumps"), "position");
+  out.body_position = hdf5::read_vectors(hdf5::open_group(frame, "rubber_grains"), "centre");
+  const std::vector<Vec3> clumps = hdf5::read_vectors(hdf5::open_group(frame, "clumps"), "position");
   out.body_position.insert(out.body_position.end(), clumps.begin(), clumps.end());
   out.body_material.resize(out.body_position.size(), k_rubber);
   expect_rows(body.size(), material.size(), "balls/body");
@@ -66,9 +59,9 @@ struct StoredContacts {
         wall(hdf5::read_whole_numbers(group, "wall")),
         body_i(hdf5::read_whole_numbers(group, "body_i")),
         body_j(hdf5::read_whole_numbers(group, "body_j")),
-        point(read_vectors(group, "point")),
-        normal(read_vectors(group, "normal")),
-        shear_force(read_vectors(group, "shear_force")),
+        point(hdf5::read_vectors(group, "point")),
+        normal(hdf5::read_vectors(group, "normal")),
+        shear_force(hdf5::read_vectors(group, "shear_force")),
         normal_force(hdf5::read_dataset(group, "normal_force")),
         friction(hdf5::read_dataset(group, "friction")),
         is_sliding(hdf5::read_bytes(group, "is_sliding")) {
@@ -124,7 +117,7 @@ void read_contacts(const Handle& frame, const std::vector<std::uint8_t>& materia
 
 RubberState read_rubber(const Handle& frame, std::size_t n_grains) {
   RubberState out;
-  out.ball_position = read_vectors(hdf5::open_group(frame, "balls"), "position");
+  out.ball_position = hdf5::read_vectors(hdf5::open_group(frame, "balls"), "position");
   if (out.ball_position.size() < n_grains * k_grain_balls) throw IoError("balls/position is too short");
   out.ball_position.resize(n_grains * k_grain_balls);
   const Handle bonds = hdf5::open_group(frame, "bonds");

@@ -27,16 +27,9 @@ std::filesystem::path file_in(const std::filesystem::path& path) {
                                      path.string(), file_name::k_specimen, file_name::k_results));
 }
 
-std::vector<Vec3> rows_of_three(const hdf5::Handle& group, const std::string& name) {
-  const std::vector<double> values = hdf5::read_dataset(group, name);
-  std::vector<Vec3> rows(values.size() / 3);
-  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
-  return rows;
-}
-
 std::vector<Vec3> read_normals(const hdf5::Handle& frame) {
   const hdf5::Handle contacts = hdf5::open_group(frame, "contacts");
-  const std::vector<Vec3> all = rows_of_three(contacts, "normal");
+  const std::vector<Vec3> all = hdf5::read_vectors(contacts, "normal");
   const std::vector<std::int64_t> wall = hdf5::read_whole_numbers(contacts, "wall");
   if (wall.size() != all.size()) throw IoError("the contacts of the state do not fit together");
   std::vector<Vec3> between;
@@ -63,7 +56,7 @@ StoredGrains read_first_state(const std::filesystem::path& path) {
   out.displacement = hdf5::read_number_attribute(frame, "displacement");
   out.packing = read_packing(frame);
   out.normals = read_normals(frame);
-  const std::vector<Vec3> corners = rows_of_three(hdf5::open_group(frame, "walls"), "corner");
+  const std::vector<Vec3> corners = hdf5::read_vectors(hdf5::open_group(frame, "walls"), "corner");
   if (corners.size() < static_cast<std::size_t>(ShearBox::k_walls)) throw IoError("the walls are no shear box");
   out.plate_height = corners[ShearBox::k_top_plate].z;
   return out;
@@ -74,7 +67,7 @@ StoredGrains read_first_state(const std::filesystem::path& path) {
 Packing read_packing(const hdf5::Handle& frame) {
   const hdf5::Handle balls = hdf5::open_group(frame, "balls");
   Packing packing;
-  packing.position = rows_of_three(balls, "position");
+  packing.position = hdf5::read_vectors(balls, "position");
   packing.radius = hdf5::read_dataset(balls, "radius");
   const std::vector<std::int64_t> body = hdf5::read_whole_numbers(balls, "body");
   packing.body.assign(body.begin(), body.end());

@@ -11,6 +11,7 @@
 #include "dem4grm/campaign/collect.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
 #include "dem4grm/results/micro_table.hpp"
+#include "dem4grm/results/profile_file.hpp"
 #include "support/run_program.hpp"
 
 namespace dem {
@@ -33,6 +34,8 @@ class Collected : public ::testing::Test {
                                 name, peak, 0.5 * stress, stress, rubber_content == 1.0));
     write_table(place / "shear.csv", shear_columns(), 2);
     write_table(place / "micro.csv", micro_columns(), 1);
+    write_table(place / "walls.csv", wall_columns(), 2);
+    if (normal_stress_has_profiles(stress)) write_table(place / "profiles.csv", profile_columns(), 3);
     return {name,
             {{"specimen.rubber_content", fmt::format("{}", rubber_content), "rubber_content", rubber_content},
              {"shear.normal_stress", fmt::format("\"{} kPa\"", stress), "normal_stress_kPa", stress},
@@ -40,6 +43,8 @@ class Collected : public ::testing::Test {
              {"shear.moving_half", "\"lower\"", "moving_half", std::nullopt}},
             place};
   }
+  /// Those of 30 kPa are of a program that wrote none.
+  static bool normal_stress_has_profiles(double stress) { return stress > 30.0; }
   static void write_table(const std::filesystem::path& path, std::span<const ColumnInfo> columns, int rows) {
     std::string text;
     for (const ColumnInfo& c : columns) text += fmt::format("{}{}", text.empty() ? "" : ",", c.name);
@@ -128,6 +133,12 @@ TEST_F(Collected, Hdf5HasTheSameWithUnits) {
   EXPECT_EQ(hdf5::read_whole_numbers(shear, "test"), (std::vector<std::int64_t>{0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}));
   EXPECT_EQ(hdf5::read_dataset(shear, "shear_stress_kPa").at(1), 1.5);
   EXPECT_NEAR(hdf5::read_dataset(hdf5::open_group(file, "envelopes"), "friction_angle_deg").at(0), 30.0, 1e-9);
+  const hdf5::Handle walls = hdf5::open_group(file, "walls"), profiles = hdf5::open_group(file, "profiles");
+  EXPECT_EQ(hdf5::read_whole_numbers(walls, "test"), hdf5::read_whole_numbers(shear, "test"));
+  EXPECT_EQ(hdf5::names_in(walls).size(), 1 + wall_columns().size());
+  EXPECT_EQ(hdf5::read_whole_numbers(profiles, "test"), (std::vector<std::int64_t>{1, 1, 1, 2, 2, 2, 4, 4, 4, 5, 5, 5}))
+      << "tests of an older program have none";
+  EXPECT_EQ(hdf5::read_dataset(profiles, std::string(profile_columns()[1].name)).at(1), 1.5);
 }
 
 TEST_F(Collected, TheSameTestsGiveTheSameBytes) {
