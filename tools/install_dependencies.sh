@@ -27,6 +27,7 @@ fi
 # Sphinx, MyST and a theme build the documentation site, see docs/decisions/0029-documentation-site.md.
 # VTK reads what `dem4grm export` writes, see docs/decisions/0027-vtk-export.md.
 # The Python package needs python3-dev, pybind11 and pandas; pip, setuptools and wheel make it installable, see docs/how-to/python.md.
+# The example notebooks are executed in a kernel as Jupyter has it, 25 MB with what it needs; Jupyter itself is left to the reader.
 # The calibration desk fits with scikit-learn, which brings SciPy, see docs/decisions/0030-calibration-desk.md.
 test_packages=(
   "${build_packages[@]}"
@@ -34,6 +35,7 @@ test_packages=(
   clang-14 libclang-rt-14-dev libomp-14-dev llvm-14 clang-format-14 clang-tidy-14
   python3 python3-numpy python3-h5py python3-matplotlib python3-vtk9
   python3-dev pybind11-dev python3-pandas python3-sklearn python3-pytest python3-pip python3-setuptools python3-wheel
+  python3-nbclient python3-ipykernel
   g++-aarch64-linux-gnu qemu-user
   slurm-wlm munge
   chromium
