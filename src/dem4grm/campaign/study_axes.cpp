@@ -148,6 +148,8 @@ std::optional<StudyValue> StudyTables::read_one(const Key& key, const TomlNode& 
   }
   if (!read_value(key, node, study_folder_, problems_)) return std::nullopt;
   StudyValue value{key.path(), value_text(key).value_or("\"\""), study_column(schema_, key), std::nullopt};
+  // A table is laid out over several lines; as the value of a test it is one. Line breaks within texts are written as \n.
+  std::replace(value.text.begin(), value.text.end(), '\n', ' ');
   if (names_a_file(key) && node.kind == TomlKind::text) {
     // The test reads the file from beside its case, and is told apart by the name of the file.
     const std::filesystem::path file = std::filesystem::absolute(study_folder_ / node.text);

@@ -145,6 +145,17 @@ TEST_F(StudyFile, AGradingOfAnAxisLiesBesideTheStudy) {
   EXPECT_EQ(study.tests[0].name, "gravel_grading-fine.csv");
 }
 
+TEST_F(StudyFile, AGradingMayStandInTheStudyItself) {
+  const Study study =
+      of_base("[set]\nspecimen.gravel_grading = [[\"4.0 mm\", 0.0],\n  [\"4.8 mm\", 1.0]]\n[axes]\nseed = [1, 2]\n");
+  ASSERT_EQ(study.tests.size(), 2U);
+  const auto& grading = shear_of(study.tests[1]).specimen.gravel_grading;
+  ASSERT_EQ(grading.size(), 2U);
+  EXPECT_DOUBLE_EQ(grading[0].size, 4.0e-3);
+  EXPECT_DOUBLE_EQ(grading[1].size, 4.8e-3);
+  EXPECT_EQ(grading[1].passing, 1.0);
+}
+
 TEST_F(StudyFile, ColumnsCarryUnitsAndNumbersAreInThem) {
   const Study study = of_base("[axes]\nnormal_stress = [\"0.06 MPa\"]\nvelocity = [\"20 mm/s\", \"quasi-static\"]\n");
   const std::vector<StudyValue>& values = study.tests[0].values;
