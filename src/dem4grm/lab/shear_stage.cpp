@@ -21,7 +21,6 @@
 namespace dem {
 namespace {
 
-constexpr int k_watch_interval = 500;    // steps between two looks of the watchdog
 constexpr int k_numbers_interval = 100;  // between two quick ones, for values that are no number
 /// Kinetic energy over all that was ever given: more than 1 cannot be, and one ball that is thrown out makes it many times that.
 constexpr double k_most_kinetic = 1.0;
@@ -29,8 +28,6 @@ constexpr double k_most_kinetic = 1.0;
 constexpr double k_plate_window = 1e-3, k_plate_limit = 0.3;
 /// The halves reach their velocity over this displacement, so that the start is no blow.
 constexpr double k_start_ramp = 2e-5;  // m
-/// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
-constexpr double k_longest_over_prepared = 2.0;
 
 void exchange_forces(StateArchive& archive, std::array<Vec3, ShearBox::k_walls>& forces) {
   std::vector<double> numbers;
@@ -67,6 +64,7 @@ void ShearStage::run(StateArchive* from) {
     observer_.resumed({rows_, written_frames_, micro_rows_, start_energy_});
   }
   if (!observer_.wants_shear()) return;
+  if (turn_.is_consolidating) consolidate();
   tell_velocity();
   while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
     advance();
@@ -93,20 +91,26 @@ void ShearStage::tell_velocity() {
 double ShearStage::plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
 
 double ShearStage::next_row_at() const {
-  return std::min(static_cast<double>(rows_.size() + 1) * test_.recording.interval, test_.shear.displacement);
+  const auto row = static_cast<std::int64_t>(rows_.size()) + 1 + turn_.row_shift;
+  return std::min(static_cast<double>(row) * test_.recording.interval, test_.shear.displacement);
 }
 
 bool ShearStage::has_reached(const std::vector<double>& at, std::size_t number) const {
   return number < at.size() && displacement_ >= at[number] - 0.5 * test_.recording.interval;
 }
 
+double ShearStage::halves_velocity() const {
+  const double way = displacement_ - turn_.ramp_begin, v0 = turn_.ramp_velocity;
+  const double ramp = std::min(1.0, std::max(0.02, std::sqrt(way / k_start_ramp)));
+  return v0 + (velocity_ - v0) * ramp;
+}
+
 void ShearStage::advance() {
-  const double v = velocity_;
-  const double ramp = std::min(1.0, std::max(0.02, std::sqrt(displacement_ / k_start_ramp)));
-  ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v * ramp, s_.walls[ShearBox::k_top_plate].velocity.z);
+  const double v = halves_velocity();
+  ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v, s_.walls[ShearBox::k_top_plate].velocity.z);
   s_.step();
-  displacement_ += v * ramp * s_.dt;
-  review_time_step(s_, k_longest_over_prepared * specimen_.report.time_step.seconds);
+  displacement_ += v * s_.dt;
+  review_time_step(s_, longest_time_step());
   for (int w = 0; w < ShearBox::k_walls; ++w) {
     const Vec3& force = s_.reactions[static_cast<std::size_t>(w)].force;
     (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += force.x;
@@ -142,7 +146,7 @@ void ShearStage::finish_row() {
   row.energy = since_start(s_.energy());
   for (std::size_t w = 0; w < sums_.on_wall.size(); ++w) row.wall_force[w] = sums_.on_wall[w] * (1.0 / n);
   rows_.push_back(row);
-  rows_.back().dilatancy = last_dilatancy(rows_);
+  rows_.back().dilatancy = last_dilatancy(course());
   sums_ = {};
   observer_.shear_row(rows_.back());
   report();
@@ -205,11 +209,11 @@ void ShearStage::check_energy() const {
 void ShearStage::check_plate() const {
   double sum = 0.0;
   int n = 0;
-  for (auto row = rows_.rbegin(); row != rows_.rend() && row->displacement > displacement_ - k_plate_window;
-       ++row, ++n) {
+  const std::span<const ShearRow> rows = course();
+  for (auto row = rows.rbegin(); row != rows.rend() && row->displacement > displacement_ - k_plate_window; ++row, ++n) {
     sum += row->normal_stress;
   }
-  if (n == 0 || displacement_ < k_plate_window) return;
+  if (n == 0 || displacement_ - turn_.course_begin < k_plate_window) return;
   const double off = sum / n / test_.shear.normal_stress - 1.0;
   if (std::fabs(off) <= k_plate_limit) return;
   throw PhysicsError(
@@ -267,6 +271,24 @@ void ShearStage::exchange_all(StateArchive& archive) {
   next_frame_ = written_frames_.size();
   exchange(archive, rows_);
   exchange(archive, micro_rows_);
+  exchange_turn(archive);
+}
+
+void ShearStage::exchange_turn(StateArchive& archive) {
+  if (archive.is_loading() ? !archive.has_group("turn") : turn_ == ShearTurn{}) return;
+  archive.group("turn", [&] { exchange(archive, turn_); });
+  if (!archive.is_loading()) return;
+  if (turn_.course_rows < 0 || turn_.course_rows > static_cast<std::int64_t>(rows_.size())) {
+    throw IoError("the saved course of shear does not fit its rows");
+  }
+  const auto recorded = [](const auto& list, std::int64_t count) {
+    std::vector<double> out;
+    for (const auto& one : list) out.push_back(one.displacement);
+    out.resize(std::min(out.size(), static_cast<std::size_t>(std::max<std::int64_t>(0, count))));
+    return out;
+  };
+  frames_ = marks_of_turn(recorded(written_frames_, turn_.old_frames), state_displacements(test_), turn_.frames_after);
+  micro_ = marks_of_turn(recorded(micro_rows_, turn_.old_micro_rows), micro_displacements(test_), turn_.micro_after);
 }
 
 }  // namespace dem
