@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "dem4grm/report/report_page.hpp"
+#include "dem4grm/runs/branch_source.hpp"
 
 namespace dem {
 namespace {
@@ -84,9 +85,22 @@ std::string report_line(const std::filesystem::path& folder) {
 
 }  // namespace
 
+std::string branch_lines(const JsonObject& origin) {
+  if (origin.empty()) return {};
+  std::string text = line("branched from", text_in(origin, "source"));
+  text += line("at", branch_place_words(origin));
+  text += line("with", branch_changes_words(origin));
+  const double begin = number_in(origin, "numbers_from_mm");
+  return begin > 0.0 ? text + line("curve and means", fmt::format("of what came after {:.3f} mm", begin)) : text;
+}
+
 std::string summary_lines(const JsonObject& summary) {
   std::string text =
       text_in(summary, "test") == "grain_compression" ? compression_lines(summary) : shear_lines(summary);
+  const JsonValue* branch = find_field(summary, "branch");
+  if (const auto* origin = branch == nullptr ? nullptr : std::get_if<JsonObject>(&branch->data)) {
+    text += branch_lines(*origin);
+  }
   text += line("energy not accounted for",
                fmt::format("{:.3g} % of the boundary work", number_in(summary, "energy_closure_per_cent")));
   text += line("state hash", text_in(summary, "state_hash"));

@@ -12,6 +12,9 @@ namespace dem {
 /// The main numbers of a summary as lines of text.
 std::string summary_lines(const JsonObject& summary);
 
+/// Where a branched test comes from, as in branch.json; nothing for an empty object.
+std::string branch_lines(const JsonObject& origin);
+
 /// How even a specimen is, from the fields of homogeneity_fields (results/summary.hpp), as lines of text; empty without them.
 std::string homogeneity_lines(const JsonObject& fields);
 

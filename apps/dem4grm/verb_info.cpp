@@ -76,7 +76,10 @@ void show_folder(const std::filesystem::path& folder) {
     compare(folder, summary, stored);
     text += summary_lines(summary) + homogeneity_lines(summary) + outline_text(results, stored) +
             "  the last state is that of the summary\n";
-  } else if (std::filesystem::exists(results, ignored)) {
+  } else if (std::filesystem::exists(folder / file_name::k_branch, ignored)) {
+    text += branch_lines(read_json_file(folder / file_name::k_branch));
+  }
+  if (!is_complete && std::filesystem::exists(results, ignored)) {
     text += outline_text(results, read_outline(results));
   }
   for (const std::filesystem::path& file : {results, folder / file_name::k_specimen}) {

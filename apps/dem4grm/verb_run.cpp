@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -23,7 +24,7 @@ namespace {
 constexpr int k_most_threads = 1024;
 
 struct RunOptions {
-  std::string case_path, folder, store, specimen;
+  std::string case_path, folder, store, specimen, from;
   int threads = 0;          ///< 0: all processors that this process may use
   double most_hours = 0.0;  ///< 0: no limit
   std::vector<std::string> settings;
@@ -60,11 +61,28 @@ void check_threads(int threads, int processors, bool is_quiet) {
   }
 }
 
+/// The state of another test that this one starts from.
+std::optional<BranchSource> source_of(const RunOptions& options) {
+  if (options.from.empty()) {
+    if (options.case_path.empty()) throw Error(ExitCode::usage, "CASE is required, or --from\nsee dem4grm run --help");
+    return std::nullopt;
+  }
+  if (!options.specimen.empty()) throw Error(ExitCode::usage, "--from and --specimen exclude each other");
+  return read_branch_source(options.from);
+}
+
+std::filesystem::path folder_of(const RunOptions& options, const std::optional<BranchSource>& source,
+                                const LoadedCase& loaded) {
+  if (!options.folder.empty()) return options.folder;
+  return source ? default_branch_folder(*source, loaded) : default_folder(case_name(loaded.test));
+}
+
 void run(const RunOptions& options) {
   const std::vector<Override> overrides = overrides_from(options.settings);
-  const LoadedCase loaded = load_case(options.case_path, overrides);
-  const std::filesystem::path folder =
-      options.folder.empty() ? default_folder(case_name(loaded.test)) : std::filesystem::path(options.folder);
+  std::optional<BranchSource> source = source_of(options);
+  const LoadedCase loaded =
+      options.case_path.empty() ? branched_case(*source, overrides) : load_case(options.case_path, overrides);
+  const std::filesystem::path folder = folder_of(options, source, loaded);
   if (!options.is_quiet) {
     for (const std::string& text : loaded.warnings) print_warning(text);
   }
@@ -80,6 +98,7 @@ void run(const RunOptions& options) {
   settings.folder = folder;
   settings.threads = threads;
   settings.specimen = options.specimen;
+  settings.from = source ? &*source : nullptr;
   settings.job = batch_job();
   settings.links.listener = &listener;
   settings.links.stop_flag = &stop_requested;
@@ -107,7 +126,9 @@ void run(const RunOptions& options) {
 
 /// What both verbs can be told.
 void add_common(CLI::App& verb, RunOptions& options) {
-  verb.add_option("CASE", options.case_path, "case file")->required();
+  CLI::Option* file = verb.add_option(
+      "CASE", options.case_path, options.is_specimen_only ? "case file" : "case file; may be left out with --from");
+  if (options.is_specimen_only) file->required();
   verb.add_option("-o,--output", options.folder, "output folder, default runs/<name of the case>")
       ->type_name("DIR")
       ->check(not_empty());
@@ -116,8 +137,7 @@ void add_common(CLI::App& verb, RunOptions& options) {
       ->check(CLI::Range(1, k_most_threads))
       ->take_last();
   add_set_option(verb, options.settings);
-  verb.add_option("--store", options.store,
-                  "folder in which preparations find each other's states;\ndefault: preparation/ in the output folder")
+  verb.add_option("--store", options.store, "folder of shared preparations; default: in the output")
       ->type_name("DIR")
       ->check(not_empty());
   add_most_hours(verb, options.most_hours);
@@ -134,6 +154,9 @@ void add_run(CLI::App& app) {
   add_common(*verb, *options);
   verb->add_option("--specimen", options->specimen, "finished specimen to start from, or its folder")
       ->type_name("FILE")
+      ->check(not_empty());
+  verb->add_option("--from", options->from, "start from a state of another test (folder or file)")
+      ->type_name("PATH")
       ->check(not_empty());
   verb->add_flag("-v,--verbose", options->is_verbose, "also name every stored state");
   verb->footer(

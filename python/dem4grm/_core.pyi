@@ -77,6 +77,7 @@ def run_case(
     stop: Any,
     store: str | PathLike,
     specimen: str | PathLike,
+    source: str | PathLike,
     is_specimen_only: bool,
     checkpoint_interval: float,
     most_hours: float,

@@ -44,8 +44,9 @@ def _tell(text: str, is_warning: bool) -> None:
 def run(case: Case | str | PathLike, folder: str | PathLike | None = None, *, threads: int | None = None,
         progress: Callable[[_core.Progress], bool | None] | None = None, interval: float = 0.2,
         message: Callable[[str, bool], None] | None = _tell, stop: StopFlag | None = None,
-        store: str | PathLike | None = None, specimen: str | PathLike | None = None, specimen_only: bool = False,
-        checkpoint_interval: float = 600.0, max_hours: float | None = None) -> Test:
+        store: str | PathLike | None = None, specimen: str | PathLike | None = None,
+        source: str | PathLike | None = None, specimen_only: bool = False, checkpoint_interval: float = 600.0,
+        max_hours: float | None = None) -> Test:
     """Runs a case, or goes on with it, or opens its finished folder; the files and bits of `dem4grm run`.
 
     case           a Case, or the path of a case file
@@ -57,6 +58,8 @@ def run(case: Case | str | PathLike, folder: str | PathLike | None = None, *, th
     stop           asked about twenty times a second, as `stop.is_set()`: a threading.Event that another thread may set
     store          folder in which preparations find each other's states
     specimen       a finished specimen to start from, or its folder
+    source         a stored state of another test to start from, as `--from`: its folder, or a file in it. The case is that of the source
+                   but for what may still change there: case = source_test.case; case["shear.normal_stress"] = "75 kPa"
     specimen_only  prepares the specimen and stops before shear
     checkpoint_interval   seconds of wall time between two checkpoints
     max_hours      stops with a checkpoint after that time
@@ -78,8 +81,8 @@ def run(case: Case | str | PathLike, folder: str | PathLike | None = None, *, th
     try:
         _, was_complete = _core.run_case(
             case._loaded, place, threads=threads or 0, progress=progress, interval=interval, message=message, stop=stop,
-            store=store or "", specimen=specimen or "", is_specimen_only=specimen_only,
-            checkpoint_interval=checkpoint_interval, most_hours=max_hours or 0.0)
+            store=store or "", specimen=specimen or "", source=source or "",
+            is_specimen_only=specimen_only, checkpoint_interval=checkpoint_interval, most_hours=max_hours or 0.0)
     except BaseException as error:
         if isinstance(error, KeyboardInterrupt) and hasattr(error, "add_note"):
             error.add_note(f"{place}: stopped with a checkpoint; the same call goes on")

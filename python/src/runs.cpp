@@ -77,7 +77,7 @@ class Listener : public LabObserver {
 
 /// Options of a run as Python gives them.
 struct RunWish {
-  std::filesystem::path folder, store, specimen;
+  std::filesystem::path folder, store, specimen, source;
   int threads = 0;  ///< 0: as many as pay off
   double interval = 0.2, checkpoint_interval = 600.0, most_hours = 0.0;
   bool is_specimen_only = false;
@@ -97,7 +97,10 @@ py::object run(const LoadedCase& loaded, const RunWish& wish) {
     omp_set_num_threads(threads);
     Listener listener(box, remaining_time_of(loaded.test, wish.is_specimen_only), wish.interval, threads,
                       wish.threads == 0);
+    std::optional<BranchSource> source;
+    if (!wish.source.empty()) source = read_branch_source(wish.source);
     RunSettings settings;
+    settings.from = source ? &*source : nullptr;
     settings.folder = wish.folder;
     settings.threads = threads;
     settings.specimen = wish.specimen;
@@ -165,7 +168,8 @@ void bind_runs(py::module_& m) {
       "run_case",
       [](const LoadedCase& loaded, const std::filesystem::path& folder, int threads, const py::object& progress,
          double interval, const py::object& message, const py::object& stop, const std::filesystem::path& store,
-         const std::filesystem::path& specimen, bool is_specimen_only, double checkpoint_interval, double most_hours) {
+         const std::filesystem::path& specimen, const std::filesystem::path& source, bool is_specimen_only,
+         double checkpoint_interval, double most_hours) {
         RunWish wish;
         wish.folder = folder;
         wish.threads = threads;
@@ -175,14 +179,15 @@ void bind_runs(py::module_& m) {
         wish.stop = stop;
         wish.store = store;
         wish.specimen = specimen;
+        wish.source = source;
         wish.is_specimen_only = is_specimen_only;
         wish.checkpoint_interval = checkpoint_interval;
         wish.most_hours = most_hours;
         return run(loaded, wish);
       },
       py::arg("loaded"), py::arg("folder"), py::kw_only(), py::arg("threads"), py::arg("progress"), py::arg("interval"),
-      py::arg("message"), py::arg("stop"), py::arg("store"), py::arg("specimen"), py::arg("is_specimen_only"),
-      py::arg("checkpoint_interval"), py::arg("most_hours"));
+      py::arg("message"), py::arg("stop"), py::arg("store"), py::arg("specimen"), py::arg("source"),
+      py::arg("is_specimen_only"), py::arg("checkpoint_interval"), py::arg("most_hours"));
 }
 
 }  // namespace dem

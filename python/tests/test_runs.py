@@ -174,3 +174,16 @@ def test_specimen_first(tmp_path, bits):
     test = tiny.run(tiny.case(), tmp_path / "run", specimen_only=True)
     assert not test.is_complete and "peak_shear_stress_kPa" not in test.summary and test.status["state"] == "specimen ready"
     assert tiny.run(tiny.case(), tmp_path / "other", specimen=tmp_path / "run").state_hash == bits
+
+
+def test_branched_from_another_test(tmp_path, finished):
+    case = finished.case
+    case.update({"shear.normal_stress": "80 kPa", "shear.displacement": "1.3 mm"})
+    said = []
+    test = dem4grm.run(case, tmp_path / "loaded", threads=1, source=finished.path, message=lambda text, _: said.append(text))
+    assert test.summary["branch"]["state_hash"] == finished.state_hash and any("consolidates" in text for text in said)
+    assert test.shear["displacement_mm"].size == 130
+    case["seed"] = 4
+    with pytest.raises(dem4grm.CaseError, match="seed = 3 -> 4: may change at no stored point"):
+        tiny.run(case, tmp_path / "other", source=finished.path)
+    assert not (tmp_path / "other").exists()

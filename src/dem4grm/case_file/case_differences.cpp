@@ -2,7 +2,11 @@
 #include "dem4grm/case_file/case_differences.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <sstream>
+
+#include "dem4grm/case_file/case_schema.hpp"
 
 namespace dem {
 namespace {
@@ -23,7 +27,28 @@ std::vector<std::string> settings_of(const std::string& text) {
   return settings;
 }
 
+/// A value on one line, as a message shows it.
+std::string shown(const std::optional<std::string>& value) {
+  constexpr std::size_t k_longest = 60;
+  if (!value) return "not set";
+  std::string text = *value;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  const bool is_text = text.size() > 1 && text.front() == '"' && text.back() == '"';
+  if (is_text) text = text.substr(1, text.size() - 2);
+  return text.size() > k_longest ? text.substr(0, k_longest) + "..." : text;
+}
+
 }  // namespace
+
+std::vector<KeyChange> case_changes(DirectShearCase before, DirectShearCase after) {
+  const Schema a = case_schema(before), b = case_schema(after);
+  std::vector<KeyChange> changes;
+  for (std::size_t k = 0; k < a.keys.size(); ++k) {
+    const std::optional<std::string> old_value = value_text(a.keys[k]), new_value = value_text(b.keys[k]);
+    if (old_value != new_value) changes.push_back({a.keys[k].path(), shown(old_value), shown(new_value)});
+  }
+  return changes;
+}
 
 std::vector<std::string> case_differences(const std::string& stored, const std::string& wanted) {
   const std::vector<std::string> a = settings_of(stored), b = settings_of(wanted);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 
 #include "dem4grm/core/error.hpp"
@@ -76,7 +77,8 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
   const double target = test.shear.normal_stress;
   out.shear_velocity = shear_velocity(test.shear, specimen.report);
   double difference = 0.0;
-  for (const ShearRow& r : out.rows) {
+  const std::span<const ShearRow> rows = std::span<const ShearRow>(out.rows).subspan(out.rows_before);
+  for (const ShearRow& r : rows) {
     out.normal_stress_mean += r.normal_stress;
     out.normal_stress_max_error = std::max(out.normal_stress_max_error, std::fabs(r.normal_stress / target - 1.0));
     out.normal_stress_worst_step =
@@ -85,7 +87,7 @@ void summarise(const DirectShearCase& test, const Specimen& specimen, DirectShea
     out.unbalanced_ratio_mean += r.unbalanced_ratio;
     difference += std::fabs(r.half_force_difference);
   }
-  const double n = std::max(1.0, static_cast<double>(out.rows.size()));
+  const double n = std::max(1.0, static_cast<double>(rows.size()));
   out.normal_stress_mean /= n;
   out.unbalanced_ratio_mean /= n;
   if (out.curve.peak_stress > 0.0) out.half_force_imbalance_mean = difference / n / out.curve.peak_stress;
@@ -123,7 +125,8 @@ constexpr double k_too_fast = 1e-3;  // inertial number
 /// What of the test was not as it was meant to be.
 void warn_of_quality(const DirectShearCase& test, const DirectShearResult& r, LabObserver& observer) {
   const double target = test.shear.normal_stress, off = r.normal_stress_mean / target - 1.0;
-  if (!r.rows.empty() && (std::fabs(off) > k_mean_stress_error || r.normal_stress_max_error > k_row_stress_error)) {
+  if (r.rows.size() > r.rows_before &&
+      (std::fabs(off) > k_mean_stress_error || r.normal_stress_max_error > k_row_stress_error)) {
     observer.warning(
         fmt::format("the plate did not hold its stress: {:.2f} kPa in the mean where {:g} kPa were asked for, and "
                     "{:.1f} % off in the "
@@ -192,7 +195,9 @@ DirectShearResult run_direct_shear(const DirectShearCase& test, LabObserver& obs
   out.rows = stage.rows();
   out.micro_rows = stage.micro_rows();
   out.displacement = out.rows.empty() ? 0.0 : out.rows.back().displacement;
-  out.curve = read_shear_curve(out.rows);
+  out.rows_before = static_cast<std::size_t>(stage.turn().course_rows);
+  out.displacement_before = stage.turn().course_begin;
+  out.curve = read_shear_curve(std::span<const ShearRow>(out.rows).subspan(out.rows_before), out.displacement_before);
   summarise(test, specimen, out);
   warn_of_quality(test, out, observer);
   return out;

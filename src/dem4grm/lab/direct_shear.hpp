@@ -20,6 +20,10 @@ struct DirectShearResult {
   std::vector<ShearRow> rows;
   std::vector<MicroRow> micro_rows;
   double displacement = 0.0;
+  /// Of a test that was branched from another one under another stress, velocity or interval: rows and displacement (m) before;
+  /// curve and means below are those of what came after.
+  std::size_t rows_before = 0;
+  double displacement_before = 0.0;
   double shear_velocity = 0.0;             ///< m/s, as given or chosen
   double normal_stress_mean = 0.0;         ///< Pa, over the shear stage
   double normal_stress_max_error = 0.0;    ///< largest relative error of a row

@@ -54,24 +54,24 @@ double rise(std::span<const ShearRow> rows) {
 }
 
 /// The rows of a window; its displacement is the middle of what they were averaged over.
-Stage stage_of(std::span<const ShearRow> rows, std::size_t begin, std::size_t last) {
-  const double before = begin > 0 ? rows[begin - 1].displacement : 0.0;
+Stage stage_of(std::span<const ShearRow> rows, std::size_t begin, std::size_t last, double start) {
+  const double before = begin > 0 ? rows[begin - 1].displacement : start;
   return {0.5 * (before + rows[last].displacement), dilatancy_of(rows.subspan(begin, last + 1 - begin))};
 }
 
-/// Rows of [0, k_dilatancy_window] and later, for a record that is that long.
-void read_dilatancy(std::span<const ShearRow> rows, ShearCurve& c) {
+/// Rows of [0, k_dilatancy_window] after the start and later, for a record that is that long.
+void read_dilatancy(std::span<const ShearRow> rows, double start, ShearCurve& c) {
   for (const ShearRow& r : rows) {
     if (-r.vertical_displacement <= c.contraction) continue;
     c.contraction = -r.vertical_displacement;
     c.displacement_at_contraction = r.displacement;
   }
-  if (rows.back().displacement >= 0.999 * k_residual_zone) {
-    c.residual = stage_of(rows, window_begin(rows, rows.size() - 1, k_residual_zone), rows.size() - 1);
+  if (rows.back().displacement - start >= 0.999 * k_residual_zone) {
+    c.residual = stage_of(rows, window_begin(rows, rows.size() - 1, k_residual_zone), rows.size() - 1, start);
   }
   for (std::size_t last = 0; last < rows.size(); ++last) {
-    if (rows[last].displacement < 0.999 * k_dilatancy_window) continue;
-    const Stage now = stage_of(rows, window_begin(rows, last, k_dilatancy_window), last);
+    if (rows[last].displacement - start < 0.999 * k_dilatancy_window) continue;
+    const Stage now = stage_of(rows, window_begin(rows, last, k_dilatancy_window), last, start);
     const auto off_peak = [&](const Stage& s) { return std::fabs(s.displacement - c.displacement_at_peak); };
     if (!(off_peak(c.at_peak) <= off_peak(now))) c.at_peak = now;
     if (!(c.fastest_dilation.dilatancy.rate >= now.dilatancy.rate)) c.fastest_dilation = now;
@@ -92,38 +92,40 @@ Dilatancy last_dilatancy(std::span<const ShearRow> rows) {
   return dilatancy_of(rows.subspan(window_begin(rows, rows.size() - 1, k_dilatancy_window)));
 }
 
-ShearCurve read_shear_curve(std::span<const ShearRow> rows) {
+ShearCurve read_shear_curve(std::span<const ShearRow> rows, double start) {
   ShearCurve c;
-  if (rows.empty() || rows.back().displacement < k_peak_window) return c;
+  if (rows.empty() || rows.back().displacement - start < k_peak_window) return c;
   const double end = rows.back().displacement;
   double steepest = -1e300;
   for (std::size_t last = 0; last < rows.size(); ++last) {
     const std::size_t begin = window_begin(rows, last, k_peak_window);
-    if (rows[last].displacement >= 0.999 * k_peak_window) {
+    if (rows[last].displacement - start >= 0.999 * k_peak_window) {
       const double mean = mean_stress(rows.subspan(begin, last + 1 - begin));
       if (!(mean <= c.peak_stress)) {
         c.peak_stress = mean;
         c.peak_point = point_of(rows.subspan(begin, last + 1 - begin));
       }
     }
-    if (rows[last].displacement >= 0.999 * k_dilation_window) {
+    if (rows[last].displacement - start >= 0.999 * k_dilation_window) {
       const std::size_t from = window_begin(rows, last, k_dilation_window);
       steepest = std::max(steepest, rise(rows.subspan(from, last + 1 - from)));
     }
   }
   c.displacement_at_peak = c.peak_point.displacement;
   c.is_hardening = c.displacement_at_peak > end - k_hardening_zone;
-  if (end >= 0.999 * k_residual_zone) {
+  if (end - start >= 0.999 * k_residual_zone) {
     const auto zone = rows.subspan(window_begin(rows, rows.size() - 1, k_residual_zone));
     c.residual_stress = mean_stress(zone);
     c.residual_point = point_of(zone);
   }
   const auto half =
       std::find_if(rows.begin(), rows.end(), [&](const ShearRow& r) { return r.shear_stress >= 0.5 * c.peak_stress; });
-  if (half != rows.end() && half->displacement > 0.0) c.secant_stiffness = half->shear_stress / half->displacement;
+  if (start == 0.0 && half != rows.end() && half->displacement > 0.0) {
+    c.secant_stiffness = half->shear_stress / half->displacement;
+  }
   if (steepest > -1e300) c.dilation_angle = std::atan(steepest);
   c.vertical_displacement_at_end = rows.back().vertical_displacement;
-  read_dilatancy(rows, c);
+  read_dilatancy(rows, start, c);
   return c;
 }
 

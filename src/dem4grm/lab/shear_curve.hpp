@@ -51,7 +51,8 @@ struct ShearCurve {
   ShearPoint residual_point;                 ///< of residual_stress
 };
 
-/// Rows in order of displacement, at equal intervals. A record of less than 0.1 mm has no curve.
-ShearCurve read_shear_curve(std::span<const ShearRow> rows);
+/// Rows in order of displacement, at equal intervals, the first averaged from the displacement `start` (m) on. A record of less
+/// than 0.1 mm has no curve, one that does not begin with the start of shear no secant stiffness.
+ShearCurve read_shear_curve(std::span<const ShearRow> rows, double start = 0.0);
 
 }  // namespace dem

@@ -22,12 +22,9 @@
 namespace dem {
 namespace {
 
-constexpr int k_watch_interval = 500;    // steps between two looks of the watchdog
 constexpr int k_numbers_interval = 100;  // between two quick ones, for values that are no number
 /// The halves reach their velocity over this displacement, so that the start is no blow.
 constexpr double k_start_ramp = 2e-5;  // m
-/// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
-constexpr double k_longest_over_prepared = 2.0;
 
 void exchange_forces(StateArchive& archive, std::array<Vec3, ShearBox::k_walls>& forces) {
   std::vector<double> numbers;
@@ -64,6 +61,7 @@ void ShearStage::run(StateArchive* from) {
     observer_.resumed({rows_, written_frames_, micro_rows_, start_energy_});
   }
   if (!observer_.wants_shear()) return;
+  if (turn_.is_consolidating) consolidate();
   tell_velocity();
   while (displacement_ < test_.shear.displacement * (1.0 - 1e-12)) {
     advance();
@@ -90,20 +88,26 @@ void ShearStage::tell_velocity() {
 double ShearStage::plate_height() const { return s_.walls[ShearBox::k_top_plate].corner.z; }
 
 double ShearStage::next_row_at() const {
-  return std::min(static_cast<double>(rows_.size() + 1) * test_.recording.interval, test_.shear.displacement);
+  const auto row = static_cast<std::int64_t>(rows_.size()) + 1 + turn_.row_shift;
+  return std::min(static_cast<double>(row) * test_.recording.interval, test_.shear.displacement);
 }
 
 bool ShearStage::has_reached(const std::vector<double>& at, std::size_t number) const {
   return number < at.size() && displacement_ >= at[number] - 0.5 * test_.recording.interval;
 }
 
+double ShearStage::halves_velocity() const {
+  const double way = displacement_ - turn_.ramp_begin, v0 = turn_.ramp_velocity;
+  const double ramp = std::min(1.0, std::max(0.02, std::sqrt(way / k_start_ramp)));
+  return v0 + (velocity_ - v0) * ramp;
+}
+
 void ShearStage::advance() {
-  const double v = velocity_;
-  const double ramp = std::min(1.0, std::max(0.02, std::sqrt(displacement_ / k_start_ramp)));
-  ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v * ramp, s_.walls[ShearBox::k_top_plate].velocity.z);
+  const double v = halves_velocity();
+  ShearBox::set_velocities(s_.walls, test_.shear.moving_half, v, s_.walls[ShearBox::k_top_plate].velocity.z);
   s_.step();
-  displacement_ += v * ramp * s_.dt;
-  review_time_step(s_, k_longest_over_prepared * specimen_.report.time_step.seconds);
+  displacement_ += v * s_.dt;
+  review_time_step(s_, longest_time_step());
   for (int w = 0; w < ShearBox::k_walls; ++w) {
     const Vec3& force = s_.reactions[static_cast<std::size_t>(w)].force;
     (ShearBox::half_of(w) == BoxHalf::lower ? sums_.lower : sums_.upper) += force.x;
@@ -139,7 +143,7 @@ void ShearStage::finish_row() {
   row.energy = since_start(s_.energy());
   for (std::size_t w = 0; w < sums_.on_wall.size(); ++w) row.wall_force[w] = sums_.on_wall[w] * (1.0 / n);
   rows_.push_back(row);
-  rows_.back().dilatancy = last_dilatancy(rows_);
+  rows_.back().dilatancy = last_dilatancy(course());
   sums_ = {};
   observer_.shear_row(rows_.back());
   report();
@@ -189,7 +193,7 @@ void ShearStage::check_books() const {
   const double given = now.boundary_work - start_energy_.boundary_work + start_energy_.kinetic +
                        start_energy_.contact_strain + start_energy_.bond_strain;
   check_kinetic_energy(now.kinetic, given, displacement_);
-  check_plate_stress(rows_, displacement_, test_.shear.normal_stress);
+  check_plate_stress(course(), displacement_, test_.shear.normal_stress, turn_.course_begin);
 }
 
 void ShearStage::write_frame() {
@@ -240,6 +244,24 @@ void ShearStage::exchange_all(StateArchive& archive) {
   next_frame_ = written_frames_.size();
   exchange(archive, rows_);
   exchange(archive, micro_rows_);
+  exchange_turn(archive);
+}
+
+void ShearStage::exchange_turn(StateArchive& archive) {
+  if (archive.is_loading() ? !archive.has_group("turn") : turn_ == ShearTurn{}) return;
+  archive.group("turn", [&] { exchange(archive, turn_); });
+  if (!archive.is_loading()) return;
+  if (turn_.course_rows < 0 || turn_.course_rows > static_cast<std::int64_t>(rows_.size())) {
+    throw IoError("the saved course of shear does not fit its rows");
+  }
+  const auto recorded = [](const auto& list, std::int64_t count) {
+    std::vector<double> out;
+    for (const auto& one : list) out.push_back(one.displacement);
+    out.resize(std::min(out.size(), static_cast<std::size_t>(std::max<std::int64_t>(0, count))));
+    return out;
+  };
+  frames_ = marks_of_turn(recorded(written_frames_, turn_.old_frames), state_displacements(test_), turn_.frames_after);
+  micro_ = marks_of_turn(recorded(micro_rows_, turn_.old_micro_rows), micro_displacements(test_), turn_.micro_after);
 }
 
 }  // namespace dem

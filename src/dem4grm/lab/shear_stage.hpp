@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "dem4grm/lab/before_shear.hpp"
 #include "dem4grm/lab/case.hpp"
 #include "dem4grm/lab/observer.hpp"
+#include "dem4grm/lab/shear_turn.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 
 namespace dem {
@@ -24,8 +26,14 @@ class ShearStage {
 
   [[nodiscard]] const std::vector<ShearRow>& rows() const { return rows_; }
   [[nodiscard]] const std::vector<MicroRow>& micro_rows() const { return micro_rows_; }
+  /// Of a test that was branched from another one, where it left the course of that.
+  [[nodiscard]] const ShearTurn& turn() const { return turn_; }
 
  private:
+  static constexpr int k_watch_interval = 500;  ///< steps between two looks of the watchdog
+  /// The time step may grow to so many times that of the preparation, however soft the specimen becomes.
+  static constexpr double k_longest_over_prepared = 2.0;
+
   /// Sums over one interval of the record: forces (N), stresses (Pa).
   struct IntervalSums {
     double lower = 0.0, upper = 0.0, normal = 0.0, bottom_plate = 0.0, worst_normal = 0.0;
@@ -34,9 +42,20 @@ class ShearStage {
   };
 
   [[nodiscard]] double plate_height() const;
+  [[nodiscard]] double longest_time_step() const {
+    return k_longest_over_prepared * specimen_.report.time_step.seconds;
+  }
   [[nodiscard]] double next_row_at() const;
   /// True when the mark of that number is there and near.
   [[nodiscard]] bool has_reached(const std::vector<double>& at, std::size_t number) const;
+  /// The velocity that the halves have now.
+  [[nodiscard]] double halves_velocity() const;
+  /// Rows since stress, velocity and interval are what they are.
+  [[nodiscard]] std::span<const ShearRow> course() const {
+    return std::span(rows_).subspan(static_cast<std::size_t>(turn_.course_rows));
+  }
+  void consolidate();
+  void watch_consolidation();
   void advance();
   void finish_row();
   [[nodiscard]] EnergyReport since_start(EnergyReport e) const;
@@ -50,6 +69,8 @@ class ShearStage {
   StateArchive complete_state();
   void keep(bool is_new_stage);
   void exchange_all(StateArchive& archive);
+  /// Only of a branched test: the checkpoints of others stay as they were.
+  void exchange_turn(StateArchive& archive);
 
   const DirectShearCase& test_;
   Specimen& specimen_;
@@ -66,6 +87,7 @@ class ShearStage {
   IntervalSums sums_;
   std::vector<ShearRow> rows_;
   std::vector<MicroRow> micro_rows_;
+  ShearTurn turn_;
 };
 
 }  // namespace dem

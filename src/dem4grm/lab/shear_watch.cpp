@@ -24,8 +24,8 @@ void check_kinetic_energy(double kinetic, double given, double displacement) {
                   kinetic, given, displacement * 1e3));
 }
 
-void check_plate_stress(std::span<const ShearRow> rows, double displacement, double target) {
-  if (displacement < k_plate_window) return;
+void check_plate_stress(std::span<const ShearRow> rows, double displacement, double target, double begin) {
+  if (displacement - begin < k_plate_window) return;
   double sum = 0.0;
   int n = 0;
   for (auto row = rows.rbegin(); row != rows.rend() && row->displacement > displacement - k_plate_window; ++row, ++n) {

@@ -175,6 +175,12 @@ std::string as_word(const std::string& text) {
   return out + "'";
 }
 
+/// A branched test starts from a state of another one.
+std::string from_option(const std::filesystem::path& folder, std::vector<std::string>& notes) {
+  const std::string source = text_in(object_or_empty(folder / file_name::k_branch, notes), "source");
+  return source.empty() ? "" : " --from " + as_word(source);
+}
+
 struct FoundFiles {
   bool is_compression = false, is_specimen = false;
   JsonObject summary, status;
@@ -227,16 +233,16 @@ JsonObject test_data(const std::filesystem::path& folder, const std::string& nam
   }
   const FoundFiles found = look_at(folder, notes);
   const std::filesystem::path states = found.is_compression ? std::filesystem::path() : states_file(folder);
-  JsonObject out{
-      {"name", name},
-      {"folder", folder.string()},
-      {"kind", found.is_compression ? "grain_compression"
-               : found.is_specimen  ? "specimen"
-                                    : "direct_shear"},
-      {"state", text_in(found.status, "state")},
-      {"command", fmt::format("dem4grm {} {} -o {}", found.is_specimen ? "specimen" : "run",
-                              as_word((folder / file_name::k_resolved).string()), as_word(folder.string() + "-again"))},
-      {"state_hash", text_in(found.summary, "state_hash")}};
+  JsonObject out{{"name", name},
+                 {"folder", folder.string()},
+                 {"kind", found.is_compression ? "grain_compression"
+                          : found.is_specimen  ? "specimen"
+                                               : "direct_shear"},
+                 {"state", text_in(found.status, "state")},
+                 {"command", fmt::format("dem4grm {} {}{} -o {}", found.is_specimen ? "specimen" : "run",
+                                         as_word((folder / file_name::k_resolved).string()), from_option(folder, notes),
+                                         as_word(folder.string() + "-again"))},
+                 {"state_hash", text_in(found.summary, "state_hash")}};
   out.push_back(
       {"inputs", has_case
                      ? or_note(notes, [&] { return JsonValue(case_inputs(text_of(folder / file_name::k_resolved))); })

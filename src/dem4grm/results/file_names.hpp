@@ -22,6 +22,7 @@ inline constexpr const char* k_specimen_summary = "specimen.json";
 inline constexpr const char* k_preparation = "preparation";  ///< folder
 inline constexpr const char* k_checkpoint = "checkpoint.h5";
 inline constexpr const char* k_end_state = "end_state.h5";
+inline constexpr const char* k_branch = "branch.json";
 inline constexpr const char* k_previous_checkpoint = "checkpoint.previous.h5";
 }  // namespace file_name
 

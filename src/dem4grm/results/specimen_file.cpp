@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -20,6 +21,18 @@ namespace dem {
 namespace {
 
 constexpr const char* k_state = "state";
+
+/// Errors of the library name the object; the user needs the file.
+template <class Work>
+auto naming_file(const std::filesystem::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const IoError& e) {
+    const std::string shown = path.string();
+    if (std::string_view(e.what()).starts_with(shown)) throw;
+    throw IoError(fmt::format("{}: {}", shown, e.what()));
+  }
+}
 
 /// The case without what may differ between a specimen and a test on it.
 std::string specimen_text(DirectShearCase test) {
@@ -64,14 +77,12 @@ void add_specimen_state(const std::filesystem::path& path, const StateArchive& s
   });
 }
 
-StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShearCase& test) {
+StoredSpecimen read_specimen(const std::filesystem::path& path) {
   std::error_code ignored;
-  const std::filesystem::path path =
-      std::filesystem::is_directory(given, ignored) ? given / file_name::k_specimen : given;
   if (!std::filesystem::exists(path, ignored)) {
     throw MissingFileError(fmt::format("{}: no such file; dem4grm specimen makes one", path.string()));
   }
-  try {
+  return naming_file(path, [&] {
     const hdf5::Handle file = open_results(path);
     const std::vector<std::string> groups = hdf5::names_in(file);
     if (std::find(groups.begin(), groups.end(), k_state) == groups.end()) {
@@ -82,13 +93,18 @@ StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShe
     if (format != static_cast<double>(k_state_format)) {
       throw IoError(fmt::format("its state has format {}, this program reads {}", format, k_state_format));
     }
-    check_origin(path, hdf5::read_text(meta, "resolved_toml"), test);
-    return StoredSpecimen{read_state(state), hdf5::read_text_attribute(meta, "commit")};
-  } catch (const IoError& e) {
-    const std::string shown = path.string();
-    if (std::string_view(e.what()).starts_with(shown)) throw;
-    throw IoError(fmt::format("{}: {}", shown, e.what()));
-  }
+    return StoredSpecimen{read_state(state), hdf5::read_text_attribute(meta, "commit"),
+                          hdf5::read_text(meta, "resolved_toml")};
+  });
+}
+
+StoredSpecimen read_specimen(const std::filesystem::path& given, const DirectShearCase& test) {
+  std::error_code ignored;
+  const std::filesystem::path path =
+      std::filesystem::is_directory(given, ignored) ? given / file_name::k_specimen : given;
+  StoredSpecimen specimen = read_specimen(path);
+  naming_file(path, [&] { check_origin(path, specimen.resolved_toml, test); });
+  return specimen;
 }
 
 }  // namespace dem

@@ -14,7 +14,8 @@ namespace dem {
 /// A specimen that was read.
 struct StoredSpecimen {
   StateArchive state;
-  std::string commit;  ///< of the program that made it
+  std::string commit;         ///< of the program that made it
+  std::string resolved_toml;  ///< of the case that it was made for
 };
 
 /// Adds the complete state to a file of results. Throws IoError.
@@ -22,6 +23,9 @@ void add_specimen_state(const std::filesystem::path& path, const StateArchive& s
 
 /// Would a specimen of the stored case (text of a resolved.toml) do for this one? False for a text that is no case of shear.
 bool has_same_specimen(const std::string& stored_case, const DirectShearCase& test);
+
+/// The specimen of a file, whatever case it is of. Throws as below.
+StoredSpecimen read_specimen(const std::filesystem::path& path);
 
 /// The specimen of a file, or of the file specimen.h5 in a folder, for run_direct_shear. Only name, shear (but not the
 /// normal stress), record and servo.shear_speed_cap may differ from the case it was made for. Throws

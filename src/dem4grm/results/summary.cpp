@@ -132,6 +132,14 @@ JsonObject stage_fields(const Stage& stage) {
           {"taylor_friction", stage.dilatancy.friction}};
 }
 
+/// Of a branched test: its origin, and from which displacement on the numbers of the curve count.
+void append_branch(JsonObject& summary, const DirectShearResult& r, const RunFacts& facts) {
+  if (facts.branch.empty()) return;
+  JsonObject branch = facts.branch;
+  branch.push_back({"numbers_from_mm", r.displacement_before * 1e3});
+  summary.push_back({"branch", std::move(branch)});
+}
+
 /// How the specimen changes its volume, and what that carries of the shear stress.
 JsonObject volume_of(const ShearCurve& c) {
   return {{"largest_contraction_mm", c.contraction * 1e3},
@@ -215,6 +223,7 @@ JsonObject direct_shear_summary(const DirectShearCase& test, const DirectShearRe
   append(summary, volume_of(result.curve));
   append(summary, {{"shear_band", shear_bands_as_json(facts.profiles)}});
   append(summary, {{"micro_at_peak", micro_at_peak(result)}});
+  append_branch(summary, result, facts);
   append(summary, ending_of(facts, result.state_hash));
   return summary;
 }

@@ -20,6 +20,7 @@ struct RunFacts {
   std::vector<FrameInfo> frames;  ///< in the order in which they were written
   std::vector<std::string> warnings;
   std::vector<StateProfile> profiles;  ///< of the stored states
+  JsonObject branch{};                 ///< where the test was branched from; empty when it started anew
 };
 
 /// Share of the boundary work, in per cent, that is neither stored nor in one of the losses. Energies in J; `start` and

@@ -13,6 +13,7 @@
 
 #include "dem4grm/case_file/case_differences.hpp"
 #include "dem4grm/lab/prolongation.hpp"
+#include "dem4grm/results/json_text.hpp"
 #include "dem4grm/results/output_file.hpp"
 #include "dem4grm/results/specimen_file.hpp"
 
@@ -109,6 +110,14 @@ std::string other_case_message(const std::filesystem::path& path, const LoadedCa
   throw Error(ExitCode::usage, other_case_message(path, loaded));
 }
 
+[[noreturn]] void throw_lost_branch(const std::filesystem::path& path) {
+  throw Error(
+      ExitCode::usage,
+      fmt::format("{} is for a test that starts from {}, and has no checkpoint of it: run it with --from again, or "
+                  "remove {} to start anew",
+                  path.string(), text_in(read_json_file(path / file_name::k_branch), "source"), file_name::k_branch));
+}
+
 void make_folder(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -170,7 +179,8 @@ void remove_drafts(const std::filesystem::path& folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job)
+OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job,
+                           const std::function<void(const std::filesystem::path&)>& plant, const std::string& origin)
     : path_(std::move(path)) {
   if (look_into(path_, loaded) == FolderContent::other_case) throw_other_case(path_, loaded);
   make_folder(path_);
@@ -184,13 +194,19 @@ OutputFolder::OutputFolder(std::filesystem::path path, const LoadedCase& loaded,
   has_checkpoint_ = (found_ == FolderContent::unfinished || found_ == FolderContent::shorter) &&
                     (is_there(file(file_name::k_checkpoint)) || is_there(file(file_name::k_previous_checkpoint)));
   if (has_checkpoint_) return;
+  if (!plant && is_there(file(file_name::k_branch))) throw_lost_branch(path_);
   for (const char* name : k_results_of_run) {
     std::error_code error;
     std::filesystem::remove(file(name), error);
     if (error) throw IoError(fmt::format("{}: cannot be removed: {}", file(name).string(), error.message()));
   }
+  // The origin first: whoever comes after a process that died here must not begin such a test at its beginning.
+  if (plant) replace_file(file(file_name::k_branch), origin);
   replace_file(file(file_name::k_resolved), loaded.resolved_toml);
   replace_file(file(file_name::k_case), loaded.source_text);
+  if (!plant) return;
+  plant(path_);
+  has_checkpoint_ = is_planted_ = true;
 }
 
 void OutputFolder::become_longer(const LoadedCase& loaded) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -31,8 +32,11 @@ class OutputFolder {
  public:
   /// Makes the folder, takes its lock, removes what an unfinished run without a checkpoint left, writes case.toml and
   /// resolved.toml.
-  /// `job` as for FolderLock. Throws FolderInUseError, IoError, and Error with ExitCode::usage when it holds another case.
-  OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job = {});
+  /// `job` as for FolderLock. `plant` fills a folder from which no checkpoint goes on, and leaves one, where the test starts from a
+  /// state of another one; `origin` is the text of branch.json then. Throws FolderInUseError, IoError, and Error with
+  /// ExitCode::usage when it holds another case, or a branch of a test that it has no checkpoint of any more.
+  OutputFolder(std::filesystem::path path, const LoadedCase& loaded, const std::string& job = {},
+               const std::function<void(const std::filesystem::path&)>& plant = {}, const std::string& origin = {});
 
   [[nodiscard]] std::filesystem::path file(const char* name) const { return path_ / name; }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -40,6 +44,8 @@ class OutputFolder {
   [[nodiscard]] FolderContent found() const { return found_; }
   /// True when there is a checkpoint to go on from; then the other files of the run are there too.
   [[nodiscard]] bool has_checkpoint() const { return has_checkpoint_; }
+  /// True when the folder has just got the state of another test to start from.
+  [[nodiscard]] bool is_planted() const { return is_planted_; }
   [[nodiscard]] const std::string& lock_note() const { return lock_->note(); }
 
  private:
@@ -49,7 +55,7 @@ class OutputFolder {
   std::filesystem::path path_;
   std::unique_ptr<FolderLock> lock_;
   FolderContent found_ = FolderContent::nothing;
-  bool has_checkpoint_ = false;
+  bool has_checkpoint_ = false, is_planted_ = false;
 };
 
 }  // namespace dem

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "dem4grm/results/specimen_file.hpp"
+#include "dem4grm/runs/branch_rules.hpp"
 #include "dem4grm/runs/checkpoint_file.hpp"
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/version.hpp"
@@ -50,10 +51,46 @@ void check_grain_numbers(const LoadedCase& loaded) {
                   test->specimen, test->box);
 }
 
+bool has_checkpoint(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  return std::filesystem::exists(folder / file_name::k_checkpoint, ignored) ||
+         std::filesystem::exists(folder / file_name::k_previous_checkpoint, ignored) ||
+         std::filesystem::exists(folder / file_name::k_end_state, ignored);
+}
+
 /// The specimen that the user names, when the run begins at its beginning.
 std::optional<StoredSpecimen> chosen_specimen(const LoadedCase& loaded, const RunSettings& settings) {
   if (settings.specimen.empty()) return std::nullopt;
   return read_specimen(settings.specimen, std::get<DirectShearCase>(loaded.test));
+}
+
+/// Before anything is written: whether the test may start from that state, where its folder does not go on by itself.
+void check_branch(const LoadedCase& loaded, const RunSettings& settings, FolderContent content) {
+  const BranchSource& source = *settings.from;
+  std::error_code ignored;
+  if (std::filesystem::weakly_canonical(settings.folder, ignored) == source.folder()) {
+    throw Error(ExitCode::usage,
+                fmt::format("{} is the folder that the test is to start from; choose another one with -o",
+                            settings.folder.string()));
+  }
+  const bool is_begun =
+      content == FolderContent::complete || content == FolderContent::shorter || content == FolderContent::unfinished;
+  if (is_begun) check_same_branch(settings.folder, source);
+  const bool goes_on = is_begun && (content == FolderContent::complete || has_checkpoint(settings.folder));
+  if (content == FolderContent::other_case || goes_on) return;
+  const auto* test = std::get_if<DirectShearCase>(&loaded.test);
+  const std::string problem = test == nullptr ? fmt::format("{} is no direct shear test; {} is a state of one",
+                                                            case_name(loaded.test), source.file.string())
+                                              : branch_problem(source.point, source.test, *test, source.file.string());
+  if (!problem.empty()) throw InputError(problem);
+}
+
+std::string note_about(const BranchSource& source, const JsonObject& origin) {
+  std::string text = fmt::format("branches from {}, with {}", branch_words(origin), branch_changes_words(origin));
+  if (source.commit != k_commit) {
+    text += fmt::format("; it was written by commit {}, so results may not be those of one program", source.commit);
+  }
+  return text;
 }
 
 std::string note_about(const StoredSpecimen& specimen, const std::filesystem::path& path) {
@@ -62,6 +99,18 @@ std::string note_about(const StoredSpecimen& specimen, const std::filesystem::pa
     text += fmt::format("; it was made by commit {}, so results may not be those of one program", specimen.commit);
   }
   return text;
+}
+
+JsonObject branch_origin_of(const LoadedCase& loaded, const RunSettings& settings) {
+  const auto* test = std::get_if<DirectShearCase>(&loaded.test);
+  return settings.from == nullptr || test == nullptr ? JsonObject() : branch_origin(*settings.from, *test);
+}
+
+OutputFolder open_folder(const LoadedCase& loaded, const RunSettings& settings, const JsonObject& origin) {
+  if (settings.from == nullptr) return OutputFolder(settings.folder, loaded, settings.job);
+  return OutputFolder(
+      settings.folder, loaded, settings.job,
+      [&](const std::filesystem::path& folder) { plant_branch(*settings.from, loaded, folder); }, json_text(origin));
 }
 
 std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
@@ -79,12 +128,15 @@ std::string note_about(const std::optional<StoredCheckpoint>& checkpoint) {
 
 RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   check_settings(loaded, settings);
+  const FolderContent content = look_into(settings.folder, loaded);
+  if (settings.from != nullptr) check_branch(loaded, settings, content);
   // A finished folder may be read-only and needs no lock.
-  if (auto outcome = outcome_of_complete(settings, look_into(settings.folder, loaded))) return *outcome;
+  if (auto outcome = outcome_of_complete(settings, content)) return *outcome;
   // Before anything is written: a specimen of another case must not leave a folder behind.
   std::optional<StoredSpecimen> start = chosen_specimen(loaded, settings);
   check_grain_numbers(loaded);
-  const OutputFolder folder(settings.folder, loaded, settings.job);
+  const JsonObject origin = branch_origin_of(loaded, settings);
+  const OutputFolder folder = open_folder(loaded, settings, origin);
   if (auto outcome = outcome_of_complete(settings, folder.found())) return *outcome;
   std::optional<StoredCheckpoint> checkpoint;
   std::string newer_is_damaged;
@@ -105,7 +157,13 @@ RunOutcome run_case(const LoadedCase& loaded, const RunSettings& settings) {
   const bool starts_from_specimen = start && !checkpoint;
   if (starts_from_specimen) writer.note(note_about(*start, settings.specimen));
   if (start && checkpoint) writer.note("shear has begun already; the specimen that was named is not used");
-  if (!starts_from_specimen && folder.found() == FolderContent::unfinished) writer.note(note_about(checkpoint));
+  if (folder.is_planted()) {
+    if (!settings.from->note.empty()) writer.warning(settings.from->note);
+    writer.note(note_about(*settings.from, origin));
+    settings.from->state = {};
+  }
+  if (!starts_from_specimen && !folder.is_planted() && folder.found() == FolderContent::unfinished)
+    writer.note(note_about(checkpoint));
   if (folder.found() == FolderContent::shorter) {
     writer.note("prolongs the test that the folder holds; " + note_about(checkpoint));
   }

@@ -59,6 +59,9 @@ TestWriter::TestWriter(const OutputFolder& folder, const LoadedCase& loaded, int
   } else {
     table_.emplace(folder.file(file_name::k_grain), compression_columns());
   }
+  if (std::error_code ignored; std::filesystem::exists(folder.file(file_name::k_branch), ignored)) {
+    branch_ = read_json_file(folder.file(file_name::k_branch));
+  }
   for (const std::string& text : loaded.warnings) {
     log_.warning(text);
     warnings_.push_back(text);
@@ -218,7 +221,8 @@ void TestWriter::frame(const Simulation& state, const FrameInfo& info) {
 }
 
 RunFacts TestWriter::facts() const {
-  return {threads_, seconds(), energy_closure_per_cent(start_energy_, last_energy_), frames_, warnings_, profiles_};
+  return {threads_,  seconds(), energy_closure_per_cent(start_energy_, last_energy_), frames_, warnings_,
+          profiles_, branch_};
 }
 
 void TestWriter::write_tables() {

@@ -110,6 +110,7 @@ class TestWriter : public LabObserver {
   std::vector<FrameInfo> frames_;
   std::vector<std::string> warnings_;
   std::vector<StateProfile> profiles_;
+  JsonObject branch_;  ///< of branch.json; empty for a test that started anew
 };
 
 }  // namespace dem

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/engine/simulation_state.hpp"
@@ -369,6 +372,8 @@ class Preparation {
     exchange(archive, out_);
     if (!archive.has_group("rest")) return;  // in shear
     exchange_place(archive);
+    // Under another stress than before there may be fewer stations.
+    if (stage_ == k_compression) station_ = std::min(station_, stations().size() - 1);
     aim_at(stage_ == k_final_friction ? order_.normal_stress : stations().at(station_));
   }
 
@@ -386,6 +391,28 @@ class Preparation {
 };
 
 }  // namespace
+
+void rest_under_other_stress(std::vector<StateEntry>& state) {
+  const auto at = [&](std::string_view name) {
+    return std::find_if(state.begin(), state.end(), [&](const StateEntry& e) { return e.name == name; });
+  };
+  if (const auto held = at("rest.held"); held != state.end()) {
+    held->data = std::vector<std::int64_t>{0};
+    return;
+  }
+  // A finished specimen has no place in a stage any more: it gets one at the beginning of the last.
+  StateArchive place;
+  std::string stage = k_final_friction;
+  std::size_t station = 0;
+  std::int64_t steps = 0;
+  RestState rest;
+  place.exchange("stage", stage);
+  place.exchange("station", station);
+  place.exchange("station_steps", steps);
+  place.group("rest", [&] { exchange(place, rest); });
+  if (const auto old = at("stage"); old != state.end()) state.erase(old);
+  state.insert(state.end(), place.entries().begin(), place.entries().end());
+}
 
 Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& hooks) {
   return Preparation(order, hooks).run();

@@ -110,6 +110,10 @@ Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& ho
 /// state does not fit the order or was saved during the fill.
 Specimen load_specimen(const SpecimenOrder& order, StateArchive& state);
 
+/// Makes a saved state, in whatever stage from the compression on, one whose specimen must come to rest under the normal stress
+/// of the order that it is given to next; a finished specimen does so with its final friction.
+void rest_under_other_stress(std::vector<StateEntry>& state);
+
 /// Saves or loads a finished specimen; loading is left to prepare_specimen, which knows how to build one.
 void exchange(StateArchive& archive, Specimen& specimen);
 void exchange(StateArchive& archive, std::vector<Branch>& branches);

@@ -53,6 +53,7 @@ TEST(ShearWatch, APlateMayBeOffByThirtyPerCentOverAMillimetre) {
   EXPECT_THROW(check_plate_stress(rows_to(5e-3, 40e3), 5e-3, 30e3), PhysicsError) << "of the stress that was asked for";
   EXPECT_NO_THROW(check_plate_stress(rows_to(0.9e-3, 0.0), 0.9e-3, k_target)) << "the start is no failure";
   EXPECT_NO_THROW(check_plate_stress({}, 5e-3, k_target)) << "right after a test went on";
+  EXPECT_NO_THROW(check_plate_stress(rows_to(5e-3, 0.0), 5e-3, k_target, 4.5e-3)) << "of a test that was branched";
 }
 
 TEST(ShearWatch, OneCollapseWithinTheMillimetreIsNoFailure) {
