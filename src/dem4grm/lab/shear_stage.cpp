@@ -256,6 +256,7 @@ void ShearStage::exchange_turn(StateArchive& archive) {
   }
   const auto recorded = [](const auto& list, std::int64_t count) {
     std::vector<double> out;
+    out.reserve(list.size());
     for (const auto& one : list) out.push_back(one.displacement);
     out.resize(std::min(out.size(), static_cast<std::size_t>(std::max<std::int64_t>(0, count))));
     return out;
