@@ -84,7 +84,7 @@ TEST(Threads, IncrementalBonds) {
 }
 
 TEST(Threads, UnloadingRuleOneAndDashpots) {
-  for (int mode = 0; mode < 4; ++mode) {
+  for (const int mode : {0, 3}) {  // the others in a small box, below
     MixtureOptions o;
     o.contact = {1, 0.2, 0.1, mode};
     expect_same_for_all_thread_counts(o, k_steps);
