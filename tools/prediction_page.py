@@ -4,9 +4,11 @@
 
 For each finished test it writes docs/results/prediction/NAME.csv (the curve, one row each 0.1 mm) and NAME.micro.csv (micro-mechanics), fills the
 tables of docs/results/prediction.md and draws docs/pictures/prediction.png. A test that is there already is written again only when its
-state hash is the same; another result is an error, since no prediction is changed after the fact.
+state hash is the same; another result is an error, since no prediction is changed after the fact. What
+`dem4grm campaign collect FOLDER` found before gives the strength of mixtures with two stresses.
 """
 import argparse
+import csv
 import pathlib
 import sys
 
@@ -97,6 +99,24 @@ def origin_table(tests):
     return "\n".join(lines)
 
 
+def strength_table(folder):
+    """Mohr envelopes of the mixtures with at least two stresses, as `dem4grm campaign collect` found them."""
+    path = folder / "collected/envelopes.csv"
+    rows = list(csv.DictReader(path.open(encoding="utf-8"))) if path.exists() else []
+    rows = [r for r in rows if int(r["normal_stresses"]) > 1]
+    if not rows:
+        return "No mixture has been sheared under two stresses yet."
+    lines = ["| mixture | stress | tests | friction angle, degrees | cohesion, kPa |", "| --- | --- | --- | --- | --- |"]
+
+    for r in rows:
+        def text(name, unit):
+            low, high = r[f"{name}_low_{unit}"], r[f"{name}_high_{unit}"]
+            bounds = f" ({float(low):.1f} to {float(high):.1f})" if low else ""
+            return f"{float(r[f'{name}_{unit}']):.1f}{bounds}"
+        lines.append(f"| VRC {100 * float(r['rubber_content']):g} % | {r['quantity']} | {r['tests']} | {text('friction_angle', 'deg')} | {text('cohesion', 'kPa')} |")
+    return "\n".join(lines)
+
+
 def draw(tests):
     figure, axes = plt.subplots(2, 3, figsize=(12, 6.6), sharex=True, constrained_layout=True)
     panels = [("shear stress, kPa", 2, "shear_stress_kPa"), ("vertical displacement, mm (up positive)", 2, "vertical_displacement_mm"),
@@ -145,7 +165,8 @@ def main():
     for name, _, shear, micro in tests:
         write_rows(FILES / f"{name}.csv", thin(shear, CURVE, STEP))
         write_rows(FILES / f"{name}.micro.csv", thin(micro, MICRO))
-    fill_page(PAGE, {"curves": curve_table(tests), "micro": micro_table(tests), "origin": origin_table(tests)})
+    fill_page(PAGE, {"curves": curve_table(tests), "micro": micro_table(tests), "origin": origin_table(tests),
+                     "strength": strength_table(folder)})
     draw([t for t in tests if t[0].count("-") == 1])
     print(f"{len(tests)} tests on record")
 
