@@ -10,6 +10,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/results/results_file.hpp"
 #include "dem4grm/specimen/sieve_analysis.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
