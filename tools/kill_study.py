@@ -56,6 +56,12 @@ def one_run(program, folder, rng, mean, stages):
             problems.append(f"exit code {code}: {text[-300:]}")
         if code not in (0, -9):
             break
+    # A kill may fall between the summary and the report: the same command once more writes what is missing, and leaves no draft.
+    again = subprocess.run(words(program, folder, 1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+    if not problems and again.returncode != 0:
+        problems.append(f"once more: exit code {again.returncode}: {again.stderr[-300:]}")
+    if not problems and not (folder / "report.html").exists():
+        problems.append("once more: no report")
     return kills, problems
 
 
