@@ -29,7 +29,8 @@ REACH_MM = 0.05  # how far a stored state may be from the displacement that is a
 def _open_file(path: Path) -> h5py.File:
     if not path.exists():
         raise MissingFileError(f"{path}: there is no such file; the run has not stored a state yet, or this is no folder of a run")
-    # A reader that locks the file would stop the run that adds to it.
+    _core.check_seal(path)  # IoError for a file that was damaged or changed since the run wrote it
+    # Reading needs no lock, which not every file system grants.
     return h5py.File(path, "r", locking=False)
 
 

@@ -17,6 +17,7 @@
 #include "dem4grm/micro/stress_tensor.hpp"
 #include "dem4grm/results/micro_text.hpp"
 #include "dem4grm/results/results_file.hpp"
+#include "dem4grm/results/sealed_file.hpp"
 #include "dem4grm/results/sieve_report.hpp"
 #include "micro_options.hpp"
 #include "module.hpp"
@@ -113,6 +114,7 @@ MicroWords words_from(int bins, const std::string& level, const std::string& mea
 }
 
 void bind_micro(py::module_& m) {
+  m.def("check_seal", &check_seal_once);
   m.def("analyse_state", [](const std::filesystem::path& path, std::optional<double> displacement, int bins,
                             const std::string& level, const std::string& mean, const std::string& strong,
                             const std::string& projection, int resamples, std::uint64_t seed) {

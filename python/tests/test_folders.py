@@ -2,6 +2,7 @@
 """Finished folders: tables with units, states on demand, micro-mechanics, sieve analysis; and networks given as arrays."""
 import json
 import math
+import shutil
 import subprocess
 
 import dem4grm
@@ -38,6 +39,16 @@ def test_states_are_found_by_displacement_and_read_on_demand(finished):
     assert len(state.clumps.frame()) == 137 and state.clumps["shape_names"][0].startswith("T")
     assert state.balls.position.shape == (137 * 0 + len(state.balls.radius), 3)
     assert states.last.state_hash == finished.state_hash
+
+
+def test_a_damaged_file_of_states_is_refused(finished, tmp_path):
+    shutil.copytree(finished.path, tmp_path / "damaged")
+    file = tmp_path / "damaged/results.h5"
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+    with pytest.raises(dem4grm.IoError, match="does not fit its seal"):
+        dem4grm.Test(tmp_path / "damaged").states
 
 
 def test_a_state_in_balance(finished):

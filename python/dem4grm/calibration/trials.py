@@ -100,13 +100,14 @@ def run_elsewhere(case: Case, folder: Path, launcher: Sequence[str], threads: in
         raise IoError(f"{launcher[0]}: cannot be started: {error.strerror}") from None
     was_stopped = False
     while True:
+        if stop.is_set() and not was_stopped:
+            was_stopped = True
+            process.terminate()
         try:
             _, said = process.communicate(timeout=0.5)
             break
         except subprocess.TimeoutExpired:
-            if stop.is_set() and not was_stopped:
-                was_stopped = True
-                process.terminate()
+            pass
     if process.returncode == 0:
         file.unlink()
         return Test(folder)

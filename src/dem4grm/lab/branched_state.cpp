@@ -11,6 +11,7 @@
 #include "dem4grm/lab/shear_turn.hpp"
 #include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/specimen/specimen.hpp"
+#include "dem4grm/specimen/stage_names.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -42,11 +43,11 @@ ShearRecord record_of(StateArchive& state) {
 BranchStage stage_of_name(StateArchive& state) {
   std::string name;
   state.exchange("stage", name);
-  if (name == "fill") return BranchStage::fill;
-  if (name == "branch") return BranchStage::search;
-  if (name == "compression") return BranchStage::compression;
-  if (name == "final friction") return BranchStage::final_friction;
-  if (name == "shear") return BranchStage::shear;
+  if (name == stage_name::k_fill) return BranchStage::fill;
+  if (name == stage_name::k_branch) return BranchStage::search;
+  if (name == stage_name::k_compression) return BranchStage::compression;
+  if (name == stage_name::k_final_friction) return BranchStage::final_friction;
+  if (name == stage_name::k_shear) return BranchStage::shear;
   throw IoError("the saved state is from an unknown stage \"" + name + "\"");
 }
 

@@ -17,6 +17,7 @@
 #include "dem4grm/lab/shear_curve.hpp"
 #include "dem4grm/lab/shear_velocity.hpp"
 #include "dem4grm/lab/shear_watch.hpp"
+#include "dem4grm/specimen/stage_names.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
@@ -209,7 +210,7 @@ void ShearStage::record_micro() {
 
 StateArchive ShearStage::specimen_state() {
   StateArchive archive;
-  std::string stage = "shear";
+  std::string stage = stage_name::k_shear;
   archive.exchange("stage", stage);
   exchange(archive, specimen_);
   return archive;

@@ -82,6 +82,12 @@ void throw_io_error(const std::filesystem::path& path, std::string_view what) {
   throw IoError(fmt::format("{}: {}: {}", path.string(), what, std::generic_category().message(reason)));
 }
 
+void rethrow_with_name(const std::filesystem::path& path, const IoError& error) {
+  const std::string shown = path.string();
+  if (std::string_view(error.what()).starts_with(shown)) throw;
+  throw IoError(fmt::format("{}: {}", shown, error.what()));
+}
+
 void replace_file(const std::filesystem::path& path, std::string_view text) {
   std::filesystem::path draft = path;
   draft += ".tmp";

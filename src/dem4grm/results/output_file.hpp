@@ -6,10 +6,25 @@
 #include <string>
 #include <string_view>
 
+#include "dem4grm/core/error.hpp"
+
 namespace dem {
 
 /// "PATH: cannot be written: No space left on device", from errno.
 [[noreturn]] void throw_io_error(const std::filesystem::path& path, std::string_view what);
+
+/// Rethrows the error that is being handled, with the name of the file in front when it has none.
+[[noreturn]] void rethrow_with_name(const std::filesystem::path& path, const IoError& error);
+
+/// Runs work. Errors of a library name the object; the user needs the file.
+template <class Work>
+auto naming_file(const std::filesystem::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const IoError& e) {
+    rethrow_with_name(path, e);
+  }
+}
 
 /// Replaces a file as a whole: written under another name, brought to the disk, then renamed. A reader sees the old
 /// text or the new one. Throws IoError and leaves the old file.

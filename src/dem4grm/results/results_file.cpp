@@ -19,18 +19,6 @@ namespace {
 
 constexpr std::int64_t k_format = 1;  // raised when a reader of older files would be misled
 
-/// Runs work; errors that do not name the file are made to.
-template <class Work>
-void naming_file(const std::filesystem::path& path, const Work& work) {
-  try {
-    work();
-  } catch (const IoError& e) {
-    const std::string shown = path.string();
-    if (std::string_view(e.what()).starts_with(shown)) throw;
-    throw IoError(fmt::format("{}: {}", shown, e.what()));
-  }
-}
-
 /// Lets `make` write a draft beside the file, seals it, and gives it the name of the file; removes it when that fails.
 template <class Make>
 void replace_sealed(const std::filesystem::path& path, const Make& make) {
@@ -48,6 +36,20 @@ void replace_sealed(const std::filesystem::path& path, const Make& make) {
     throw;
   }
   publish_file(draft, path);
+}
+
+/// A copy to be changed. Its seal must fit, since the copy gets a new one, under which old damage would hide. A file of an older build has
+/// none, and no room for one at its beginning: its content goes into a file that has.
+void copy_for_change(const std::filesystem::path& path, const std::filesystem::path& draft) {
+  check_seal_once(path);
+  if (has_seal(path)) {
+    copy_to_new_file(path, draft);
+    return;
+  }
+  const hdf5::Handle from = hdf5::open_file(path, hdf5::Access::read);
+  hdf5::Handle to = hdf5::create_file(draft, k_seal_bytes);
+  for (const std::string& name : hdf5::names_in(from)) hdf5::copy_group(from, name, to);
+  to.close("the file cannot be closed");
 }
 
 void write_meta(const hdf5::Handle& file, const ResultsOrigin& origin) {
@@ -99,7 +101,7 @@ bool holds_just(const std::filesystem::path& path, const ResultsOrigin& origin, 
 
 void change_sealed_file(const std::filesystem::path& path, const std::function<void(const hdf5::Handle&)>& change) {
   replace_sealed(path, [&](const std::filesystem::path& draft) {
-    copy_to_new_file(path, draft);
+    copy_for_change(path, draft);
     hdf5::Handle file = hdf5::open_file(draft, hdf5::Access::write);
     change(file);
     file.close("the file cannot be closed");

@@ -14,6 +14,7 @@
 #include "dem4grm/core/error.hpp"
 #include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/hdf5_handle.hpp"
+#include "dem4grm/results/output_file.hpp"
 #include "dem4grm/results/results_file.hpp"
 #include "dem4grm/results/state_group.hpp"
 
@@ -21,18 +22,6 @@ namespace dem {
 namespace {
 
 constexpr const char* k_state = "state";
-
-/// Errors of the library name the object; the user needs the file.
-template <class Work>
-auto naming_file(const std::filesystem::path& path, const Work& work) {
-  try {
-    return work();
-  } catch (const IoError& e) {
-    const std::string shown = path.string();
-    if (std::string_view(e.what()).starts_with(shown)) throw;
-    throw IoError(fmt::format("{}: {}", shown, e.what()));
-  }
-}
 
 /// The case without what may differ between a specimen and a test on it.
 std::string specimen_text(DirectShearCase test) {

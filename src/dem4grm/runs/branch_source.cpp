@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -71,25 +69,11 @@ void read_folder(BranchSource& source, const std::filesystem::path& folder) {
   take(source, std::move(found->stored));
 }
 
-/// A run may be adding a state to its file at this moment; what was there before is whole a moment later.
-template <class Work>
-void patiently(const Work& work) {
-  constexpr int k_tries = 30;
-  for (int k = 1;; ++k) {
-    try {
-      work();
-      return;
-    } catch (const IoError&) {
-      if (k == k_tries) throw;
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-  }
-}
-
-void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::error_code error;
-  std::filesystem::copy_file(from, to, std::filesystem::copy_options::overwrite_existing, error);
-  if (error) throw IoError(fmt::format("{}: cannot be copied to {}: {}", from.string(), to.string(), error.message()));
+/// Whole even of a running source, whose files are replaced as a whole.
+void copy_over(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code ignored;
+  std::filesystem::remove(to, ignored);
+  copy_to_new_file(from, to);
 }
 
 /// Stored states of shear are in results.h5 alone, so what was recorded before the branch is taken from there.
@@ -103,11 +87,9 @@ void copy_record(const BranchSource& source, const LoadedCase& loaded, const std
   }
   const ResultsOrigin origin{"direct_shear", case_name(loaded.test), loaded.source_text, loaded.resolved_toml};
   const std::filesystem::path target = folder / file_name::k_results;
-  patiently([&] {
-    copy_whole(results, target);
-    const ResultsFile only_past(target, origin, source.point.frames);
-  });
-  if (is_present(specimen)) copy_whole(specimen, folder / file_name::k_specimen);
+  copy_over(results, target);
+  const ResultsFile only_past(target, origin, source.point.frames);
+  if (is_present(specimen)) copy_over(specimen, folder / file_name::k_specimen);
 }
 
 std::string value_or_dash(const JsonObject& object, const char* name) {

@@ -15,18 +15,6 @@
 namespace dem {
 namespace {
 
-/// Errors of the library name the object; the user needs the file.
-template <class Work>
-auto naming_file(const std::filesystem::path& path, const Work& work) {
-  try {
-    return work();
-  } catch (const IoError& e) {
-    const std::string shown = path.string();
-    if (std::string_view(e.what()).starts_with(shown)) throw;
-    throw IoError(fmt::format("{}: {}", shown, e.what()));
-  }
-}
-
 bool is_whole(const std::filesystem::path& path) {
   try {
     check_seal(path);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,16 +13,14 @@
 #include "dem4grm/specimen/draw_grains.hpp"
 #include "dem4grm/specimen/specimen.hpp"
 #include "dem4grm/specimen/specimen_parts.hpp"
+#include "dem4grm/specimen/stage_names.hpp"
 #include "dem4grm/specimen/void_ratio_defaults.hpp"
 #include "dem4grm/walls/shear_box.hpp"
 
 namespace dem {
 namespace {
 
-constexpr const char* k_fill = "fill";
-constexpr const char* k_branch = "branch";
-constexpr const char* k_compression = "compression";
-constexpr const char* k_final_friction = "final friction";
+using stage_name::k_branch, stage_name::k_compression, stage_name::k_fill, stage_name::k_final_friction;
 
 // For the forecast only: steps from the first load to rest, and trials until the density is met.
 constexpr double k_usual_rest = 6000.0;
@@ -391,28 +388,6 @@ class Preparation {
 };
 
 }  // namespace
-
-void rest_under_other_stress(std::vector<StateEntry>& state) {
-  const auto at = [&](std::string_view name) {
-    return std::find_if(state.begin(), state.end(), [&](const StateEntry& e) { return e.name == name; });
-  };
-  if (const auto held = at("rest.held"); held != state.end()) {
-    held->data = std::vector<std::int64_t>{0};
-    return;
-  }
-  // A finished specimen has no place in a stage any more: it gets one at the beginning of the last.
-  StateArchive place;
-  std::string stage = k_final_friction;
-  std::size_t station = 0;
-  std::int64_t steps = 0;
-  RestState rest;
-  place.exchange("stage", stage);
-  place.exchange("station", station);
-  place.exchange("station_steps", steps);
-  place.group("rest", [&] { exchange(place, rest); });
-  if (const auto old = at("stage"); old != state.end()) state.erase(old);
-  state.insert(state.end(), place.entries().begin(), place.entries().end());
-}
 
 Specimen prepare_specimen(const SpecimenOrder& order, const PreparationHooks& hooks) {
   return Preparation(order, hooks).run();

@@ -34,6 +34,16 @@ class ResultsIntegrity : public ::testing::Test {
     bytes_ = test::read_all(path_);
   }
 
+  /// A copy as an older build wrote it.
+  [[nodiscard]] std::filesystem::path without_seal() const {
+    std::filesystem::path plain = folder_.path() / "plain.h5";
+    const hdf5::Handle from = hdf5::open_file(path_, hdf5::Access::read);
+    hdf5::Handle to = hdf5::create_file(plain);
+    for (const char* group : {"meta", "frames"}) hdf5::copy_group(from, group, to);
+    to.close("the file cannot be closed");
+    return plain;
+  }
+
   /// The numbers of state 1 as they stand in the file.
   [[nodiscard]] std::vector<double> numbers_of(const std::filesystem::path& path) const {
     const hdf5::Handle file = hdf5::open_file(path, hdf5::Access::read);
@@ -138,19 +148,32 @@ TEST_F(ResultsIntegrity, AnotherAttributeIsNamedAsDamageToADescription) {
 }
 
 TEST_F(ResultsIntegrity, AFileWithoutASealIsReadAndSaysSo) {
-  const std::filesystem::path plain = folder_.path() / "plain.h5";
-  {
-    const hdf5::Handle from = hdf5::open_file(path_, hdf5::Access::read);
-    hdf5::Handle to = hdf5::create_file(plain);
-    for (const char* group : {"meta", "frames"}) hdf5::copy_group(from, group, to);
-    to.close("the file cannot be closed");
-  }
+  const std::filesystem::path plain = without_seal();
   EXPECT_EQ(numbers_of(plain), numbers_of(path_));
   EXPECT_NO_THROW(open_results(plain));
   const ResultsCheck check = check_results(plain);
   EXPECT_EQ(check.seal, SealState::none);
   EXPECT_TRUE(check.damaged.empty());
   EXPECT_NE(verdict_of(plain, check).find("no seal"), std::string::npos);
+}
+
+TEST_F(ResultsIntegrity, AFileOfAnOlderBuildGetsASealWithItsNextState) {
+  const std::filesystem::path plain = without_seal();
+  const std::vector<double> before = numbers_of(plain);
+  change_sealed_file(plain, [](const hdf5::Handle& file) { hdf5::create_group(file, "later"); });
+  const ResultsCheck check = check_results(plain);
+  EXPECT_EQ(check.seal, SealState::fits);
+  EXPECT_EQ(check.whole_states, (std::vector<std::string>{"0000", "0001", "0002"}));
+  EXPECT_EQ(numbers_of(plain), before);
+  EXPECT_EQ(hdf5::names_in(open_results(plain)), (std::vector<std::string>{"frames", "later", "meta"}));
+}
+
+TEST_F(ResultsIntegrity, OldDamageIsNotHiddenUnderANewSeal) {
+  std::string changed = bytes_;
+  changed[changed.size() / 2] = static_cast<char>(changed[changed.size() / 2] ^ 1);
+  test::write_all(path_, changed);
+  EXPECT_THROW(change_sealed_file(path_, [](const hdf5::Handle& file) { hdf5::create_group(file, "later"); }), IoError);
+  EXPECT_EQ(test::read_all(path_), changed);
 }
 
 TEST_F(ResultsIntegrity, NoCutFileIsCalledWhole) {
