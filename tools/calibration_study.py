@@ -3,7 +3,7 @@
 """Synthetic calibrations: hidden parameters, data made with them, and how often and how well the desk finds them again.
 
     tools/calibration_study.py FOLDER --repeats 10              one rubber grain: bond modulus, shear modulus, stiffness ratio
-    tools/calibration_study.py FOLDER --gravel --repeats 3      gravel in a small box: shear modulus, friction; data of another seed
+    tools/calibration_study.py FOLDER --gravel --repeats 3      gravel in a small box: shear modulus, friction; data of other seeds
 
 Hidden values are drawn anew for each repeat; data get noise of the size that the desk states. Prints a table and writes study.csv to
 the folder; a study that was stopped goes on by the same command. PYTHONPATH must name the package.
@@ -43,8 +43,9 @@ def hidden_values(ranges: dict, random: numpy.random.Generator) -> dict[str, flo
     return found
 
 
-def desk_text(ranges: dict, case: str, settings: dict, trials: int, seed: int, data: str) -> str:
-    lines = [f"seed = {seed}", "[[stage]]", f'case = "{CASES / case}"', f"trials = {trials}", "[stage.set]"]
+def desk_text(ranges: dict, case: str, settings: dict, options, seed: int, data: str) -> str:
+    lines = [f"seed = {seed}", "[[stage]]", f'case = "{CASES / case}"', f"trials = {options.trials}", f"seeds = {options.seeds}",
+             f"specimens = {options.specimens}", "[stage.set]"]
     lines += [f'"{key}" = {toml(value)}' for key, value in settings.items()]
     for key, (low, high, unit, scale) in ranges.items():
         lines += ["[[stage.parameter]]", f'key = "{key}"', f"low = {toml(text_of(low, unit))}", f"high = {toml(text_of(high, unit))}",
@@ -66,16 +67,20 @@ def grain_data(folder: Path, truth: dict, random: numpy.random.Generator) -> str
             + series("poisson_ratio", "strain", zip(curve.strain, poisson), "0.005", 40))
 
 
-def gravel_data(folder: Path, truth: dict, random: numpy.random.Generator) -> str:
+def gravel_data(folder: Path, truth: dict, random: numpy.random.Generator, specimens: int) -> str:
+    """Under each stress the mean curve of the specimens."""
     data = ""
     for stress in ("50 kPa", "100 kPa"):
-        seed = int(random.integers(10_000, 20_000))  # no seed that the desk takes
-        case = dem4grm.Case.read(CASES / "quick.toml", {**GRAVEL, **truth, "shear.normal_stress": stress, "seed": seed})
-        table = dem4grm.run(case, folder / f"hidden-{stress.split()[0]}", threads=1, message=None).shear.iloc[10::20]
+        seeds = [int(s) for s in random.integers(10_000, 20_000, specimens)]  # none that the desk takes
+        curves = []
+        for seed in seeds:
+            case = dem4grm.Case.read(CASES / "quick.toml", {**GRAVEL, **truth, "shear.normal_stress": stress, "seed": seed})
+            curves.append(dem4grm.run(case, folder / f"hidden-{stress.split()[0]}-{seed}", threads=1, message=None).shear)
+        x = curves[0].displacement_mm.iloc[10::20]
         where = f'set = {{ "shear.normal_stress" = "{stress}" }}\n'
         for quantity, error in (("shear_stress_kPa", 2.0), ("vertical_displacement_mm", 0.01)):
-            y = table[quantity] + error * random.standard_normal(len(table))
-            data += series(quantity, "displacement_mm", zip(table.displacement_mm, y), str(error), 30, where)
+            mean = numpy.mean([numpy.interp(x, curve.displacement_mm, curve[quantity]) for curve in curves], axis=0)
+            data += series(quantity, "displacement_mm", zip(x, mean + error * random.standard_normal(len(x))), str(error), 30, where)
     return data
 
 
@@ -87,9 +92,9 @@ def repeat_once(place: Path, repeat: int, options) -> list[dict]:
     desk_file = place / "desk.toml"
     if not desk_file.exists():
         texts = {key: text_of(value, ranges[key][2]) for key, value in truth.items()}
-        data = (gravel_data if options.gravel else grain_data)(place, texts, random)
+        data = gravel_data(place, texts, random, options.specimens) if options.gravel else grain_data(place, texts, random)
         case, settings = ("quick.toml", GRAVEL) if options.gravel else ("grain_compression.toml", GRAIN)
-        desk_file.write_text(desk_text(ranges, case, settings, options.trials, repeat + 1, data), encoding="utf-8")
+        desk_file.write_text(desk_text(ranges, case, settings, options, repeat + 1, data), encoding="utf-8")
     found = dem4grm.calibrate(desk_file, place / "run", workers=options.workers)
     runs, table = found.result["stages"][0]["runs"], found.parameters
     return [{"repeat": repeat, "key": key, "hidden": value, "best": table.best[key], "error_per_cent": 100 * (table.best[key] / value - 1),
@@ -103,6 +108,8 @@ def main() -> None:
     parser.add_argument("--gravel", action="store_true", help="gravel in a small box in place of a rubber grain: hours")
     parser.add_argument("--repeats", type=int, default=10)
     parser.add_argument("--trials", type=int, default=40)
+    parser.add_argument("--seeds", type=int, default=1, help="tests behind each trial")
+    parser.add_argument("--specimens", type=int, default=1, help="of gravel, that the data are the mean of")
     parser.add_argument("--workers", type=int, default=1)
     options = parser.parse_args()
     rows = []

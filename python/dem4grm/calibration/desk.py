@@ -74,7 +74,8 @@ class Stage:
     trials: int
     batch: int
     start: int
-    seeds: int
+    seeds: int       # tests behind each trial
+    specimens: int   # that the laboratory's data are the mean of
     replicates: int
     seed: int
     full: dict[str, Any] | None = None
@@ -153,7 +154,7 @@ def digest_of(stages: list[Stage], predictions: list[Prediction]) -> str:
         return [experiment.name, experiment.case.text]
 
     content = [[[s.name, [vars(p) for p in s.parameters], [of_series(x) for x in s.series], [of_experiment(e) for e in s.experiments],
-                 s.trials, s.batch, s.start, s.seeds, s.replicates, s.seed, s.full, s.given] for s in stages],
+                 s.trials, s.batch, s.start, s.seeds, s.specimens, s.replicates, s.seed, s.full, s.given] for s in stages],
                [[p.name, of_experiment(p.experiment), [of_series(x) for x in p.series]] for p in predictions]]
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:32]
 

@@ -16,7 +16,8 @@ from .problems import Place, Problems
 
 _VALUE = re.compile(r"^\s*([+-]?[0-9.]+(?:[eE][+-]?[0-9]+)?)\s*([^\s0-9].*?)?\s*$")
 DESK_KEYS = ("name", "seed", "stage", "predict")
-STAGE_KEYS = ("name", "case", "trials", "start", "batch", "seeds", "replicates", "allow_mixtures", "set", "full", "parameter", "data")
+STAGE_KEYS = ("name", "case", "trials", "start", "batch", "seeds", "specimens", "replicates", "allow_mixtures", "set", "full", "parameter",
+              "data")
 PARAMETER_KEYS = ("key", "low", "high", "scale", "prior_mean", "prior_deviation")
 DATA_KEYS = ("name", "quantity", "x", "file", "x_column", "y_column", "x_factor", "y_factor", "points", "values", "value", "error",
              "common_error", "set")
@@ -140,7 +141,7 @@ class DeskReader:
                  if base is not None and key in base and key not in keys and key not in fixed}
         has_noise = base is not None and base.test == "direct_shear"
         return Stage(name, parameters, series, experiments, trials, self._whole(place, section, "batch", 4, 1, 100), start,
-                     self._whole(place, section, "seeds", 1, 1, 100),
+                     self._whole(place, section, "seeds", 1, 1, 100), self._whole(place, section, "specimens", 1, 1, 1000),
                      self._whole(place, section, "replicates", 4 if has_noise else 0, 0, 100), seed, full, given)
 
     def _refuse_mixtures(self, place: Place, section: dict, experiments: list[Experiment]) -> None:

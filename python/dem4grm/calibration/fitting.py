@@ -105,7 +105,7 @@ class _Fitting:
     def _train(self, is_final: bool = False) -> Surrogate:
         stage = self._stage
         good, curves, _ = self._means()
-        self._surrogate = Surrogate(good, curves, stage.y, stage.covariance(), self._replicates, stage.seeds, is_final)
+        self._surrogate = Surrogate(good, curves, stage.y, stage.covariance(), self._replicates, stage.seeds, stage.specimens, is_final)
         if not is_final:
             return self._surrogate
         # A model that misses the data by more than their errors explain must not be sure of its parameters: the errors grow until it fits.

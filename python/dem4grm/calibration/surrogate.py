@@ -3,7 +3,7 @@
 
 Residuals of the trials, in units of the errors of measurement, are written as scores times few directions (singular value decomposition);
 each score is a Gaussian process over the positions of the parameters. With scores of mean m and variance v, directions V, errors of
-measurement S and the noise of one specimen D, the residual has the covariance S + V (D + v) V', so that
+measurement S and the noise D of the specimens behind the data, the residual has the covariance S + V (D + v) V', so that
 
     log likelihood = -(m' M^-1 m + log det M) / 2,    M = (V' S^-1 V)^-1 + D + v
 
@@ -31,12 +31,13 @@ class Surrogate:
     y, covariance   data [m] and the covariance of their errors [m, m]
     replicates   [r, m] curves of one point with different seeds, or none
     seeds        how many seeds a curve is the mean of
+    specimens    how many specimens the data are the mean of
 
     It depends on nothing else, above all not on earlier surrogates: a calibration that goes on after a kill has none.
     """
 
     def __init__(self, positions: NDArray, curves: NDArray, y: NDArray, covariance: NDArray, replicates: NDArray | None = None,
-                 seeds: int = 1, is_final: bool = False):
+                 seeds: int = 1, specimens: int = 1, is_final: bool = False):
         self.positions, self.seeds = positions, seeds
         self._scale = 1.0 / numpy.sqrt(numpy.diag(covariance))
         residuals = (curves - y) * self._scale
@@ -52,7 +53,7 @@ class Surrogate:
         self._measured = numpy.linalg.inv(self.directions.T @ numpy.linalg.solve(scaled, self.directions))
         self.inflation = 1.0
         self._fit(is_final)
-        self.noise = self._noise_of_a_specimen(replicates)
+        self.noise = self._noise_of_a_specimen(replicates) / specimens
 
     def _fit(self, is_final: bool) -> None:
         d = self.positions.shape[1]
@@ -95,7 +96,7 @@ class Surrogate:
         return -0.5 * ((means * solved).sum(axis=1) + numpy.linalg.slogdet(matrix)[1])
 
     def misfit(self, scores: NDArray) -> NDArray:
-        """Chi-squared of scores [..., k], with the errors of measurement and the noise of a specimen, without doubts of the surrogate."""
+        """Chi-squared of scores [..., k], with the errors of measurement and the noise of the specimens, without doubts of the surrogate."""
         matrix = numpy.linalg.inv(self._measured + numpy.diag(self.noise))
         return numpy.einsum("...i,ij,...j->...", scores, matrix, scores)
 
