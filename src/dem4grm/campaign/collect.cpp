@@ -6,18 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <span>
 
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/results/file_names.hpp"
 #include "dem4grm/results/micro_table.hpp"
 #include "dem4grm/results/profile_file.hpp"
+#include "dem4grm/results/written_table.hpp"
 
 namespace dem {
 namespace {
@@ -25,48 +23,26 @@ namespace {
 constexpr std::size_t k_longest_text = 120;
 constexpr double k_nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// Splits at commas; what a run writes has no quotes.
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 /// The rows of a CSV file that a run wrote, added to a table; unknown columns are those of another version of the program.
 void add_rows(const std::filesystem::path& path, std::int32_t test, std::span<const ColumnInfo> known,
               CollectedTable& table) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  std::string_view rest = text;
-  const auto next_line = [&rest] {
-    const std::size_t end = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = rest.substr(0, end);
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    return line;
-  };
-  const std::vector<std::string_view> header = cells_of(next_line());
-  if (!file || header.size() < 2) throw IoError(fmt::format("{}: cannot be read", path.string()));
+  const WrittenTable file = read_table(path);
+  if (file.names.size() < 2) throw IoError(fmt::format("{}: has no columns", path.string()));
+  if (file.is_cut) throw IoError(fmt::format("{}: the last row is incomplete", path.string()));
   if (table.columns.empty()) {
     for (const ColumnInfo& info : known) {
       table.columns.push_back({std::string(info.name), std::string(info.unit), std::string(info.description), {}});
     }
   }
-  std::vector<std::size_t> place(table.columns.size(), header.size());
-  for (std::size_t c = 0; c < table.columns.size(); ++c) {
-    const auto found = std::find(header.begin(), header.end(), table.columns[c].name);
-    place[c] = static_cast<std::size_t>(found - header.begin());
-  }
-  while (!rest.empty()) {
-    const std::vector<std::string_view> cells = cells_of(next_line());
-    if (cells.size() != header.size()) throw IoError(fmt::format("{}: a row is incomplete", path.string()));
-    table.test.push_back(test);
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      const std::string_view cell = place[c] < cells.size() ? cells[place[c]] : std::string_view();
-      table.columns[c].values.push_back(parse_decimal(cell).value_or(k_nothing));
+  const std::size_t n_rows = file.columns.front().size();
+  table.test.insert(table.test.end(), n_rows, test);
+  for (CollectedTable::Column& column : table.columns) {
+    const auto found = std::find(file.names.begin(), file.names.end(), column.name);
+    if (found == file.names.end()) {
+      column.values.insert(column.values.end(), n_rows, k_nothing);
+    } else {
+      const std::vector<double>& values = file.columns[static_cast<std::size_t>(found - file.names.begin())];
+      column.values.insert(column.values.end(), values.begin(), values.end());
     }
   }
 }

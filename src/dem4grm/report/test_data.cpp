@@ -5,14 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "dem4grm/core/error.hpp"
-#include "dem4grm/core/quantity.hpp"
 #include "dem4grm/report/case_inputs.hpp"
 #include "dem4grm/report/quality_panel.hpp"
 #include "dem4grm/report/view_data.hpp"
@@ -21,6 +19,7 @@
 #include "dem4grm/results/micro_state_file.hpp"
 #include "dem4grm/results/results_file.hpp"
 #include "dem4grm/results/sieve_report.hpp"
+#include "dem4grm/results/written_table.hpp"
 
 namespace dem {
 namespace {
@@ -146,16 +145,6 @@ JsonObject sieve_of(const std::filesystem::path& folder) {
   return {{"materials", std::move(materials)}};
 }
 
-std::vector<std::string_view> cells_in(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    cells.push_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
-}
-
 /// results.h5, else specimen.h5, else nothing.
 std::filesystem::path states_file(const std::filesystem::path& folder) {
   for (const char* name : {file_name::k_results, file_name::k_specimen}) {
@@ -201,27 +190,14 @@ FoundFiles look_at(const std::filesystem::path& folder, std::vector<std::string>
 }  // namespace
 
 JsonObject table_data(const std::filesystem::path& csv) {
-  const std::string text = text_of(csv);
-  const std::size_t end_of_header = text.find('\n');
-  if (end_of_header == std::string::npos) return {{"columns", JsonList{}}, {"values", JsonList{}}};
-  std::vector<std::string> names;
-  for (const std::string_view name : cells_in(std::string_view(text).substr(0, end_of_header)))
-    names.emplace_back(name);
-  std::vector<JsonList> columns(names.size());
-  // A line without its end is one that a running test is about to write.
-  std::string_view rest = std::string_view(text).substr(end_of_header + 1);
-  for (std::size_t end = rest.find('\n'); end != std::string_view::npos; end = rest.find('\n')) {
-    const std::vector<std::string_view> cells = cells_in(rest.substr(0, end));
-    rest.remove_prefix(end + 1);
-    if (cells.size() != names.size()) throw IoError(fmt::format("{}: a row is incomplete", csv.string()));
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const std::optional<double> number = parse_decimal(cells[c]);
-      columns[c].push_back(number ? JsonValue(*number) : JsonValue());
-    }
-  }
+  const WrittenTable table = read_table(csv);
   JsonList values;
-  for (JsonList& column : columns) values.emplace_back(std::move(column));
-  return {{"columns", JsonValue(names)}, {"values", std::move(values)}};
+  for (const std::vector<double>& column : table.columns) {
+    JsonList numbers;
+    for (const double number : column) numbers.push_back(std::isnan(number) ? JsonValue() : JsonValue(number));
+    values.emplace_back(std::move(numbers));
+  }
+  return {{"columns", JsonValue(table.names)}, {"values", std::move(values)}};
 }
 
 JsonObject test_data(const std::filesystem::path& folder, const std::string& name, const TestDataOptions& options,

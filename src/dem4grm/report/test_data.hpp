@@ -22,8 +22,8 @@ struct TestDataOptions {
 JsonObject test_data(const std::filesystem::path& folder, const std::string& name, const TestDataOptions& options,
                      std::vector<std::string>& notes);
 
-/// {columns, values[column][row]} of a CSV file that a run wrote; what is no number is null. Throws MissingFileError, or IoError for
-/// a row with another number of cells; a last row without its end, of a test that runs, is left out.
+/// {columns, values[column][row]} of a CSV file that a run wrote; what is no number is null. Throws IoError, also
+/// for a row with another number of cells; a last row without its end, of a test that runs, is left out.
 JsonObject table_data(const std::filesystem::path& csv);
 
 }  // namespace dem
