@@ -99,10 +99,11 @@ configure() {
 
 build() { cmake --build "$1" --parallel "$n_jobs" "${@:2}"; }
 
-# The log is named apart for each run, so that the tests can be counted.
+# The log is named apart for each run, so that the tests can be counted. One test more than there are cores: the longest of them wait
+# most of their time, for a scheduler or a browser.
 run_tests() {
   local folder=$1 name=$2
-  ctest --test-dir "$folder" -j2 --output-on-failure --timeout 600 "${@:3}" | tee "$logs/$name.ctest"
+  ctest --test-dir "$folder" -j"$((n_jobs + 1))" --output-on-failure --timeout 600 "${@:3}" | tee "$logs/$name.ctest"
 }
 
 release_build() {
@@ -161,7 +162,7 @@ thread_build() {
     "${fixed_addresses[@]}" cmake --build "$tsan" --parallel "$n_jobs" --target "${targets[@]}"
 }
 thread_tests() {
-  "${fixed_addresses[@]}" ctest --test-dir "$tsan" -j2 --output-on-failure --timeout 600 -L fast -LE 'script|style' \
+  "${fixed_addresses[@]}" ctest --test-dir "$tsan" -j"$n_jobs" --output-on-failure --timeout 600 -L fast -LE 'script|style' \
     --no-tests=ignore | tee "$logs/tsan.ctest"
 }
 

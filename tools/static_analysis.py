@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""clang-tidy over the library and the command line: `tools/static_analysis.py BUILD_FOLDER [--jobs N]`.
+"""clang-tidy over the library, the command line and the Python module: `tools/static_analysis.py BUILD_FOLDER [--jobs N]`.
 
 Reads compile_commands.json of a configured build. Sources that the build joins (cmake/Unity.cmake) are analysed together:
 most of the time goes into the headers that they share. A unit is analysed again when one of its sources, any header or the
@@ -20,7 +20,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-ANALYSED = ("src/dem4grm/", "apps/")
+ANALYSED = ("src/dem4grm/", "apps/", "python/src/")
 LEFT_OUT = "src/dem4grm/verify/"
 INCLUDE = re.compile(r'^#include "(.*\.cpp)"$', re.MULTILINE)
 # Flags for g++ that clang does not know are no finding, and what is an error is said by .clang-tidy alone.

@@ -59,7 +59,7 @@ auto with_schema(const LoadedCase& loaded, const Use& use) {
   return std::visit([&](auto& test) { return use(case_schema(test)); }, copy);
 }
 
-py::object si_value(const LoadedCase& loaded, const std::string& path) {
+py::object value_in_si(const LoadedCase& loaded, const std::string& path) {
   return with_schema(loaded, [&](const Schema& schema) {
     const Key* key = schema.find(path);
     if (key == nullptr) throw py::key_error(path);
@@ -94,7 +94,7 @@ void bind_cases(py::module_& m) {
                                return std::holds_alternative<DirectShearCase>(c.test) ? "direct_shear"
                                                                                       : "grain_compression";
                              })
-      .def("si_value", &si_value)
+      .def("si_value", &value_in_si)
       .def("keys", &keys_of);
   m.def("load_case", [](const std::filesystem::path& path, const Pairs& overrides) {
     return load_case(path, overrides_of(overrides));

@@ -60,7 +60,7 @@ void run_in_threads(OwnTest& t, std::int64_t steps) {
       [](const int&) {}, [] {}, [&] { stop = 1; });
 }
 
-void run(OwnTest& t, std::int64_t steps) {
+void run_steps(OwnTest& t, std::int64_t steps) {
   const InUse claimed(t);
   if (t.threads == 1) {
     run_here(t, steps);
@@ -175,7 +175,7 @@ void bind_state(OwnClass& c) {
              const InUse claimed(t);
              t.build();
            })
-      .def("run", &run)
+      .def("run", &run_steps)
       .def("fix_time_step",
            [](OwnTest& t, double dt) {
              const InUse claimed(t);
