@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Fills docs/results/preparation.md from finished runs, and writes one row a run with its state hash beside it.
 
-    tools/preparation_study.py --density runs/preparation --choices runs/choices --rubber runs/rubber
+    tools/preparation_study.py --density runs/preparation --choices runs/choices --rubber runs/contraction
+    tools/preparation_study.py --loose runs/loose-rubber --full runs/contraction-full
     tools/preparation_study.py --fit runs/gravel-30 runs/gravel-60 ...
 
---density, --choices and --rubber are folders of campaigns (cases/studies/preparation.toml, choices.toml, contraction.toml); --fit takes
-folders of finished specimens (dem4grm specimen) of VRC 0 and 100. Each fills its table and its part of the CSV file. Mean and
-standard deviation over the seeds.
+All but --fit are folders of campaigns (cases/studies/preparation.toml, choices.toml, contraction.toml, ...); --fit takes folders
+of finished specimens (dem4grm specimen) of VRC 0 and 100. Each fills its table and its part of the CSV file. Mean and standard deviation
+over the seeds.
 """
 import argparse
 import pathlib
@@ -24,10 +25,11 @@ QUANTITIES = (("void_ratio_min", "e_min", 3), ("void_ratio_max", "e_max", 3), ("
               ("last_kPa", "last mm, kPa", 0), ("dilation_angle_deg", "dilation, degrees", 1),
               ("largest_contraction_mm", "contraction, mm", 2), ("vertical_displacement_at_end_mm", "rise at 14 mm, mm", 2),
               ("void_ratio_at_end", "e at 14 mm", 3), ("band_mm", "band, mm", 1), ("band_void_ratio", "e in the band", 3))
+CAMPAIGNS = ("density", "choices", "rubber", "loose", "full")
 NAMES = {"specimen.rubber_content": "VRC", "specimen.generation_relative_density": "D_g", "shear.normal_stress": "stress",
          "specimen.clump_shapes": "shapes", "specimen.gravel_grading": "grading", "specimen.generation": "fill",
          "specimen.generation_void_ratio": "e of the fill", "contact.hz_mode": "hz_mode",
-         "integration.local_damping": "local damping", "shear.velocity": "velocity"}
+         "specimen.preparation_friction": "friction", "integration.local_damping": "local damping", "shear.velocity": "velocity"}
 
 
 def band_of(band, profiles):
@@ -109,14 +111,14 @@ def fit_table(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", type=pathlib.Path, nargs="+", help="folders of finished specimens")
-    for name in ("density", "choices", "rubber"):
+    for name in CAMPAIGNS:
         parser.add_argument(f"--{name}", type=pathlib.Path, help="folder of a campaign")
     options = parser.parse_args()
     if options.fit:
         rows = fit_rows(options.fit)
         write_rows(PAGE.with_name("preparation-fit.csv"), rows)
         fill_page(PAGE, {"fit": fit_table(rows)})
-    for name in ("density", "choices", "rubber"):
+    for name in CAMPAIGNS:
         campaign = getattr(options, name)
         if campaign is None:
             continue

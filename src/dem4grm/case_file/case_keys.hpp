@@ -29,7 +29,8 @@ struct GivenKeys {
   [[nodiscard]] Place place_of(std::initializer_list<std::string_view> paths) const;
 };
 
-/// Puts the options into the tree, in place of what the file says. Options that cannot be placed are reported.
+/// Puts the options into the tree, in place of what the file says; an option for one of two keys that exclude each other also replaces the
+/// other one. Options that cannot be placed are reported.
 void apply_overrides(TomlNode& root, std::span<const Override> overrides, CaseProblems& problems);
 
 /// Finds the keys of the schema in the tree and reports everything else. `other` is the schema of the other test, for

@@ -267,6 +267,10 @@ TEST_F(StudyFile, ShippedStudiesAreWhatTheySay) {
   const std::filesystem::path studies = std::filesystem::path(DEM_SOURCE_DIR) / "cases/studies";
   EXPECT_EQ(load_study(studies / "quick.toml").tests.size(), 6U);
   EXPECT_EQ(load_study(studies / "replicates.toml").tests.size(), 45U);
+  EXPECT_EQ(load_study(studies / "contraction-full.toml").tests.size(), 3U);
+  for (const StudyTest& test : load_study(studies / "loose-rubber.toml").tests) {
+    EXPECT_EQ(shear_of(test).specimen.preparation_friction, 2.0) << "in place of the relative density of its base";
+  }
 }
 
 }  // namespace

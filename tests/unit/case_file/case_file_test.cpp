@@ -143,6 +143,23 @@ TEST(CaseFile, OptionsReplaceKeysWithTheSameRules) {
             0.1);
 }
 
+TEST(CaseFile, AnOptionTakesThePlaceOfTheKeyThatItExcludes) {
+  const std::string dense =
+      std::string("[specimen]\nrelative_density = 0.7\n") + std::string(k_small).substr(k_small.find("rubber"));
+  const std::string rough =
+      std::string("[specimen]\npreparation_friction = 0.2\n") + std::string(k_small).substr(k_small.find("rubber"));
+  const std::vector<Override> friction{{"specimen.preparation_friction", "1.5"}},
+      density{{"specimen.relative_density", "0.3"}};
+  const SpecimenSettings loose = direct_shear(dense, friction).specimen;
+  EXPECT_EQ(loose.preparation_friction, 1.5);
+  EXPECT_FALSE(loose.relative_density.has_value());
+  const SpecimenSettings searched = direct_shear(rough, density).specimen;
+  EXPECT_EQ(searched.relative_density, 0.3);
+  EXPECT_FALSE(searched.preparation_friction.has_value());
+  EXPECT_EQ(direct_shear(dense, density).specimen.relative_density, 0.3);
+  EXPECT_THROW(direct_shear(dense, std::vector<Override>{friction[0], density[0]}), InputError) << "both are asked for";
+}
+
 TEST(CaseFile, WarningsAreKeptAndDoNotStop) {
   const LoadedCase loaded = parse_case(std::string(k_small) + "velocity = \"0.1 m/s\"\n", "case.toml",
                                        std::vector<Override>{{"shear.normal_stress", "5 kPa"}});
