@@ -19,6 +19,7 @@ from run_files import fill_page, read_csv, read_json, write_rows
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the backend was chosen)
+from matplotlib.lines import Line2D  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE, FILES, PICTURE = ROOT / "docs/results/prediction.md", ROOT / "docs/results/prediction", ROOT / "docs/pictures/prediction.png"
@@ -27,6 +28,9 @@ CURVE = ["displacement_mm", "shear_stress_kPa", "normal_stress_kPa", "vertical_d
 MICRO = ["displacement_mm", "contacts_all", "a_all", "theta_a_all_deg", "a_n_all", "theta_n_all_deg", "a_t_all", "theta_t_all_deg", "a_t2_all", "a_s_all",
          "bulk_friction_all", "strong_share_gg", "strong_share_gr", "strong_share_rr", "strong_load_share_gg", "strong_load_share_gr",
          "strong_load_share_rr", "zone", "coordination", "bond_strain", "grain_strain_vertical", "stress_ratio", "stress_ratio_of_fabric"]
+# Of the names of tests: colours and styles of the picture.
+MIXTURES = ("vrc000", "vrc010", "vrc025", "vrc040", "vrc070", "vrc100")
+STYLES = {"100kPa": "-", "060kPa": "--", "030kPa": ":"}
 
 
 def thin(columns, names, step=None):
@@ -122,17 +126,24 @@ def draw(tests):
     panels = [("shear stress, kPa", 2, "shear_stress_kPa"), ("vertical displacement, mm (up positive)", 2, "vertical_displacement_mm"),
               ("anisotropy of the contacts, a", 3, "a_all"), ("anisotropy of the normal forces, a_n", 3, "a_n_all"),
               ("direction of the normal forces, degrees", 3, "theta_n_all_deg"), ("bulk friction", 3, "bulk_friction_all")]
-    colours = plt.get_cmap("viridis")(np.linspace(0.0, 0.9, max(2, len(tests))))
+    colours = dict(zip(MIXTURES, plt.get_cmap("viridis")(np.linspace(0.0, 0.92, len(MIXTURES)))))
     for axis, (title, table, column) in zip(axes.flat, panels):
-        for test, colour in zip(tests, colours):
-            axis.plot(test[table]["displacement_mm"], test[table][column], color=colour, lw=1.2, label=label(test[0]))
+        for test in tests:
+            mixture, stress, *variant = test[0].split("-")
+            axis.plot(test[table]["displacement_mm"], test[table][column], STYLES[stress], color=colours[mixture], lw=0.6 if variant else 1.4)
         axis.set_title(title, fontsize=10, loc="left")
         axis.grid(alpha=0.25)
     for axis in axes[1]:
         axis.set_xlabel("shear displacement, mm")
-    axes[0, 0].legend(fontsize=8, frameon=False)
+    names = [test[0].split("-") for test in tests]
+    lines = [Line2D([], [], color=colours[m], label=f"VRC {int(m[3:])} %") for m in MIXTURES if any(n[0] == m for n in names)]
+    lines += [Line2D([], [], color="0.3", ls=style, label=stress.lstrip("0").replace("kPa", " kPa")) for stress, style in STYLES.items()
+              if any(n[1] == stress for n in names)]
+    if any(len(n) > 2 for n in names):
+        lines.append(Line2D([], [], color="0.3", lw=0.6, label="another seed or numbers of grains"))
+    figure.legend(handles=lines, loc="upper center", bbox_to_anchor=(0.5, 0.0), ncol=len(lines), frameon=False, fontsize=9)
     PICTURE.parent.mkdir(exist_ok=True)
-    figure.savefig(PICTURE, dpi=110)
+    figure.savefig(PICTURE, dpi=110, bbox_inches="tight")
 
 
 def recorded_hash(name):
