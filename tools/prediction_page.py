@@ -146,6 +146,15 @@ def draw(tests):
     figure.savefig(PICTURE, dpi=110, bbox_inches="tight")
 
 
+def missing_text(folder, tests):
+    """Which tests of the campaign are not on record."""
+    names = [test["name"] for test in read_json(folder, "campaign.json")["tests"]]
+    missing = [label(name) for name in names if name not in {t[0] for t in tests}]
+    if not missing:
+        return f"All {len(names)} tests are on record."
+    return f"**On record: {len(tests)} of {len(names)} tests.** Missing, for want of machine time: {'; '.join(missing)}."
+
+
 def recorded_hash(name):
     """The hash that the page states for a test; None when the test is not on record yet."""
     for line in PAGE.read_text(encoding="utf-8").splitlines():
@@ -177,8 +186,8 @@ def main():
         write_rows(FILES / f"{name}.csv", thin(shear, CURVE, STEP))
         write_rows(FILES / f"{name}.micro.csv", thin(micro, MICRO))
     fill_page(PAGE, {"curves": curve_table(tests), "micro": micro_table(tests), "origin": origin_table(tests),
-                     "strength": strength_table(folder)})
-    draw([t for t in tests if t[0].count("-") == 1])
+                     "strength": strength_table(folder), "missing": missing_text(folder, tests)})
+    draw(tests)
     print(f"{len(tests)} tests on record")
 
 
