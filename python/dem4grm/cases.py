@@ -12,6 +12,9 @@ from typing import Any
 
 from . import _core
 
+_DENSITY, _FRICTION = "specimen.relative_density", "specimen.preparation_friction"
+EXCLUDED = {_DENSITY: _FRICTION, _FRICTION: _DENSITY}  # a change of one takes back a change of the other
+
 
 def _as_text(value: Any) -> str:
     """A value as `--set` takes it: text as it is, numbers with all their digits, lists as TOML."""
@@ -85,8 +88,11 @@ class Case:
         self.update({key: value})
 
     def update(self, changes: Mapping[str, Any]) -> None:
-        """Several keys at once, for those that only make sense together. All or none: raises CaseError with every problem."""
-        merged = {**self._changes, **{key: _as_text(value) for key, value in changes.items()}}
+        """Several keys at once, for those that only make sense together. All or none: raises CaseError with every problem.
+
+        One of `specimen.preparation_friction` and `specimen.relative_density`, which exclude each other, takes the place of the other."""
+        kept = {key: value for key, value in self._changes.items() if EXCLUDED.get(key) not in changes}
+        merged = {**kept, **{key: _as_text(value) for key, value in changes.items()}}
         self._loaded = self._load(merged)
         self._changes = merged
 

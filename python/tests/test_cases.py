@@ -39,14 +39,25 @@ def test_all_problems_come_at_once():
 
 def test_several_keys_change_together_or_not_at_all():
     case = tiny.case()
-    with pytest.raises(dem4grm.CaseError):  # either of them, but not both
-        case["specimen.relative_density"] = 0.5
+    with pytest.raises(dem4grm.CaseError, match="must be 0.01 below"):  # one without the other makes no sense
+        case["specimen.largest_friction"] = 0.0
     case.update({"seed": 7, "specimen.rubber_content": 0.4})
     assert case["seed"] == 7 and case.changes == {"seed": "7", "specimen.rubber_content": "0.4"}
     del case["seed"]
     assert case["seed"] == 3 and case["specimen.rubber_content"] == 0.4
     case["specimen.gravel_grading"] = [["3.6 mm", 0.0], ["4.2 mm", 1.0]]
     assert case["specimen.gravel_grading"][1] == ["4.2 mm", 1.0]
+
+
+def test_density_and_friction_of_preparation_take_each_others_place():
+    case = tiny.case()
+    assert case["specimen.relative_density"] is None and case["specimen.preparation_friction"] is not None
+    case["specimen.relative_density"] = 0.4
+    assert (case["specimen.relative_density"], case["specimen.preparation_friction"]) == (0.4, None)
+    case["specimen.preparation_friction"] = 0.2
+    assert (case["specimen.relative_density"], case["specimen.preparation_friction"]) == (None, 0.2)
+    with pytest.raises(dem4grm.CaseError, match="exclude each other"):
+        case.update({"specimen.preparation_friction": 0.2, "specimen.relative_density": 0.4})
 
 
 def test_a_written_case_reads_as_the_same(tmp_path):
