@@ -14,9 +14,13 @@ import argparse
 import pathlib
 import sys
 
+import matplotlib
 import numpy as np
 
 from run_files import fill_page, read_csv, read_json, write_rows
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the backend was chosen)
 
 PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "results" / "preparation.md"
 PUBLISHED = {(0.0, 30): 0.534, (0.0, 60): 0.516, (0.0, 100): 0.511, (1.0, 30): 0.782, (1.0, 60): 0.681, (1.0, 100): 0.598}
@@ -25,6 +29,8 @@ QUANTITIES = (("void_ratio_min", "e_min", 3), ("void_ratio_max", "e_max", 3), ("
               ("last_kPa", "last mm, kPa", 0), ("dilation_angle_deg", "dilation, degrees", 1),
               ("largest_contraction_mm", "contraction, mm", 2), ("vertical_displacement_at_end_mm", "rise at 14 mm, mm", 2),
               ("void_ratio_at_end", "e at 14 mm", 3), ("band_mm", "band, mm", 1), ("band_void_ratio", "e in the band", 3))
+PICTURE = PAGE.parent.parent / "pictures" / "rubber-contraction.png"
+COLOURS = {30: "tab:blue", 60: "tab:orange", 100: "tab:red"}
 CAMPAIGNS = ("density", "choices", "rubber", "loose", "full")
 NAMES = {"specimen.rubber_content": "VRC", "specimen.generation_relative_density": "D_g", "shear.normal_stress": "stress",
          "specimen.clump_shapes": "shapes", "specimen.gravel_grading": "grading", "specimen.generation": "fill",
@@ -108,6 +114,26 @@ def fit_table(rows):
     return "\n".join(lines)
 
 
+def draw_rubber(full, loose):
+    """Rise of the plate in shear: rubber in the published box, and as loose as friction can make it in a fourth of the area."""
+    figure, axis = plt.subplots(figsize=(6.4, 4.0), constrained_layout=True)
+    for campaign, style, what in ((full, "-", "published box"), (loose, "--", "a fourth of its area, as loose as can be")):
+        for test in read_json(campaign, "campaign.json")["tests"]:
+            folder = campaign / "tests" / test["name"]
+            if not (folder / "summary.json").exists():
+                continue
+            stress = round(read_json(folder)["normal_stress_target_kPa"])
+            shear = read_csv(folder / "shear.csv")
+            axis.plot(shear["displacement_mm"], shear["vertical_displacement_mm"], style, color=COLOURS[stress], lw=1.4,
+                      label=f"{stress} kPa, {what}")
+    axis.axhline(0.0, color="0.5", lw=0.8)
+    axis.set_xlabel("shear displacement, mm")
+    axis.set_ylabel("rise of the top plate, mm")
+    axis.grid(alpha=0.25)
+    axis.legend(fontsize=8, frameon=False)
+    figure.savefig(PICTURE, dpi=110)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fit", type=pathlib.Path, nargs="+", help="folders of finished specimens")
@@ -125,6 +151,8 @@ def main():
         tests = tests_of(campaign)
         write_rows(PAGE.with_name(f"preparation-{name}.csv"), [{"test": group, "seed": seed} | numbers for group, seed, numbers in tests])
         fill_page(PAGE, {name: table_of(tests)})
+    if options.full and options.loose:
+        draw_rubber(options.full, options.loose)
     return 0
 
 
