@@ -208,19 +208,22 @@ TomlNode* section_table(TomlNode& root, std::string_view path, const Place& plac
 
 /// Keys that exclude each other: an option for one of them takes the place of the other in the file as well.
 constexpr std::string_view k_section_of_density = "specimen";
-constexpr std::array<std::array<std::string_view, 2>, 2> k_chosen_and_excluded{
-    {{"preparation_friction", "relative_density"}, {"relative_density", "preparation_friction"}}};
+struct Exclusion {
+  std::string_view chosen, excluded;
+};
+constexpr std::array k_exclusions{Exclusion{"preparation_friction", "relative_density"},
+                                  Exclusion{"relative_density", "preparation_friction"}};
 
 void drop_excluded(TomlNode& root, std::span<const Override> overrides) {
   const auto is_option = [&](std::string_view name) {
     const std::string path = fmt::format("{}.{}", k_section_of_density, name);
     return std::any_of(overrides.begin(), overrides.end(), [&](const Override& o) { return o.key == path; });
   };
-  for (const auto& [chosen, excluded] : k_chosen_and_excluded) {
-    if (!is_option(chosen) || is_option(excluded)) continue;
+  for (const Exclusion& pair : k_exclusions) {
+    if (!is_option(pair.chosen) || is_option(pair.excluded)) continue;
     for (TomlMember& section : root.members) {
       if (section.key != k_section_of_density) continue;
-      std::erase_if(section.value.members, [&](const TomlMember& member) { return member.key == excluded; });
+      std::erase_if(section.value.members, [&](const TomlMember& member) { return member.key == pair.excluded; });
     }
   }
 }
